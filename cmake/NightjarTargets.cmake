@@ -1,0 +1,44 @@
+# The few shapes of target this project has.
+
+add_library(nightjar_options INTERFACE)
+target_compile_options(nightjar_options INTERFACE -Wall -Wextra -Wshadow -Wconversion
+                                                  -Wno-sign-conversion)
+if(NIGHTJAR_SANITIZE)
+  target_compile_options(nightjar_options INTERFACE -fsanitize=address,undefined
+                                                    -fno-sanitize-recover=all)
+  target_link_options(nightjar_options INTERFACE -fsanitize=address,undefined)
+endif()
+# One build gives the same bits wherever it runs: no contraction into
+# multiply-adds that only some processors have.
+target_compile_options(nightjar_options INTERFACE -ffp-contract=off)
+
+# nightjar_library(NAME [PUBLIC libs...] [PRIVATE libs...]): every .cc of the
+# folder NAME as one static library.
+function(nightjar_library name)
+  cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${name}/*.cc)
+  add_library(nightjar_${name} STATIC ${sources})
+  target_include_directories(nightjar_${name} PUBLIC ${CMAKE_SOURCE_DIR})
+  target_link_libraries(nightjar_${name} PUBLIC ${arg_PUBLIC}
+                        PRIVATE nightjar_options ${arg_PRIVATE})
+endfunction()
+
+# nightjar_lcm_types(NAME FOLDER): C++ classes made by lcm-gen from FOLDER/*.lcm,
+# included as "nightjar_lcm/<type>.hpp".
+function(nightjar_lcm_types name folder)
+  file(GLOB schemas CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.lcm)
+  set(out ${CMAKE_BINARY_DIR}/lcm)
+  set(headers)
+  foreach(schema ${schemas})
+    get_filename_component(type ${schema} NAME_WE)
+    set(header ${out}/nightjar_lcm/${type}.hpp)
+    add_custom_command(OUTPUT ${header}
+      COMMAND ${LCM_GEN} --cpp --cpp-hpath ${out} --cpp-std=c++11 ${schema}
+      DEPENDS ${schema} VERBATIM)
+    list(APPEND headers ${header})
+  endforeach()
+  add_custom_target(nightjar_${name}_gen DEPENDS ${headers})
+  add_library(nightjar_${name} INTERFACE)
+  target_include_directories(nightjar_${name} SYSTEM INTERFACE ${out})
+  add_dependencies(nightjar_${name} nightjar_${name}_gen)
+endfunction()

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "core/event.h"
+
+namespace nightjar::core {
+
+/// Pinhole without distortion. Camera axes: x right, y down, z forward.
+/// Pixel centres lie at whole numbers: (0, 0) is the middle of the top left
+/// pixel, so the picture spans [-0.5, width - 0.5) x [-0.5, height - 0.5).
+struct CameraModel {
+  Resolution size;
+  double fx_px = 0;
+  double fy_px = 0;
+  double cx_px = 0;
+  double cy_px = 0;
+
+  /// Square pixels, principal point in the middle, `fovy_rad` over the height.
+  static CameraModel from_fovy(Resolution size, double fovy_rad);
+
+  /// Pixel of a point in camera axes (m); nothing for a point not in front.
+  std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& p_camera_m) const;
+
+  /// Direction through a pixel, in camera axes, with z = 1.
+  Eigen::Vector3d ray(const Eigen::Vector2d& pixel_px) const;
+
+  /// Whether a pixel position lies on the sensor, `margin_px` inside its rim.
+  bool contains(const Eigen::Vector2d& pixel_px, double margin_px = 0) const;
+};
+
+}  // namespace nightjar::core

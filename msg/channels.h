@@ -1,0 +1,28 @@
+#pragma once
+
+#include "core/event.h"
+#include "core/image.h"
+#include "core/state.h"
+#include "core/truth.h"
+#include "msg/tag_detections.h"
+
+namespace nightjar::msg {
+
+/// An LCM channel and the one type that travels on it.
+template <class T>
+struct Channel {
+  const char* name;
+};
+
+inline constexpr Channel<core::EventPacket> kEvents{"NIGHTJAR_EVENTS"};
+inline constexpr Channel<core::Picture> kPicture{"NIGHTJAR_PICTURE"};
+inline constexpr Channel<core::ApsFrame> kApsFrame{"NIGHTJAR_APS_FRAME"};
+inline constexpr Channel<TagDetections> kTagDetections{"NIGHTJAR_TAG_DETECTIONS"};
+inline constexpr Channel<core::TargetEstimate> kTargetEstimate{"NIGHTJAR_TARGET_ESTIMATE"};
+inline constexpr Channel<core::VehicleState> kVehicleState{"NIGHTJAR_VEHICLE_STATE"};
+inline constexpr Channel<core::AttitudeSetpoint> kAttitudeSetpoint{"NIGHTJAR_ATTITUDE_SETPOINT"};
+inline constexpr Channel<core::MissionTransition> kMissionTransition{
+    "NIGHTJAR_MISSION_TRANSITION"};
+inline constexpr Channel<core::Truth> kTruth{"NIGHTJAR_TRUTH"};
+
+}  // namespace nightjar::msg

@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include <nightjar_lcm/event_packet_t.hpp>
+
+#include "msg/convert.h"
+#include "msg/lcm_bytes.h"
+
+namespace nightjar::msg {
+namespace {
+
+constexpr std::uint64_t kLongestPacket_us = 0x7fffffff;  // what 31 bits can hold
+
+// Where each part begins in a word of event_packet_t.
+constexpr int kTimeShift = 33;
+constexpr int kOnShift = 32;
+constexpr int kYShift = 16;
+
+std::int64_t pack(const core::Event& event, core::Time begin) {
+  const auto since_begin_us = static_cast<std::uint64_t>((event.t - begin).count());
+  return static_cast<std::int64_t>(since_begin_us << kTimeShift |
+                                   std::uint64_t{event.on} << kOnShift |
+                                   std::uint64_t{event.y} << kYShift | event.x);
+}
+
+core::Event unpack(std::int64_t word, core::Time begin) {
+  const auto bits = static_cast<std::uint64_t>(word);
+  return {.t = begin + core::Time(static_cast<std::int64_t>(bits >> kTimeShift)),
+          .x = static_cast<std::uint16_t>(bits),
+          .y = static_cast<std::uint16_t>(bits >> kYShift),
+          .on = (bits >> kOnShift & 1) != 0};
+}
+
+void check_interval(std::int64_t begin_us, std::int64_t end_us) {
+  // Unsigned, because times far apart would overflow a signed difference.
+  const auto length_us = static_cast<std::uint64_t>(end_us) - static_cast<std::uint64_t>(begin_us);
+  if (end_us < begin_us || length_us > kLongestPacket_us)
+    throw std::invalid_argument(
+        fmt::format("event packet: ({}, {}] us, allowed 0 to {} us long", begin_us, end_us,
+                    kLongestPacket_us));
+}
+
+void check_events(const core::EventPacket& packet) {
+  core::Time last = packet.begin;
+  for (const core::Event& event : packet.events) {
+    if (event.t <= packet.begin || event.t > packet.end || event.t < last)
+      throw std::invalid_argument(fmt::format(
+          "event packet: event at {} us after one at {} us, allowed in order and in ({}, {}] us",
+          event.t.count(), last.count(), packet.begin.count(), packet.end.count()));
+    last = event.t;
+  }
+}
+
+}  // namespace
+
+Bytes encode(const core::EventPacket& packet) {
+  check_interval(to_us(packet.begin), to_us(packet.end));
+  check_events(packet);
+  nightjar_lcm::event_packet_t message;
+  message.time_us = to_us(packet.end);
+  message.begin_us = to_us(packet.begin);
+  message.n = static_cast<std::int32_t>(packet.events.size());
+  message.event.reserve(packet.events.size());
+  for (const core::Event& event : packet.events)
+    message.event.push_back(pack(event, packet.begin));
+  return to_bytes(message);
+}
+
+template <>
+core::EventPacket decode(std::span<const std::uint8_t> bytes) {
+  constexpr std::size_t kCountOffset = 8 + 8 + 8;  // fingerprint, time_us, begin_us
+  check_array_fits("event_packet_t", bytes, kCountOffset, sizeof(std::int64_t));
+  const auto message = from_bytes<nightjar_lcm::event_packet_t>(bytes);
+  check_interval(message.begin_us, message.time_us);
+  core::EventPacket packet{core::Time(message.begin_us), core::Time(message.time_us), {}};
+  packet.events.reserve(message.event.size());
+  for (const std::int64_t word : message.event)
+    packet.events.push_back(unpack(word, packet.begin));
+  check_events(packet);
+  return packet;
+}
+
+}  // namespace nightjar::msg

@@ -1,0 +1,1 @@
+// until the folder has a real source

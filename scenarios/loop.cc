@@ -1,0 +1,153 @@
+#include "scenarios/loop.h"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <future>
+#include <memory>
+#include <optional>
+
+#include "msg/bus.h"
+#include "msg/log_writer.h"
+#include "scenarios/estimates_csv.h"
+#include "scenarios/nodes.h"
+#include "scenarios/output_folder.h"
+#include "scenarios/scorer.h"
+#include "scenarios/video.h"
+#include "sim/simulation.h"
+
+namespace nightjar::scenarios {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr core::Time kAfterTouchdown = 500ms;
+
+void record_channels(msg::LogWriter& log, msg::Bus& bus, bool events) {
+  log.record(bus, msg::kTruth);
+  log.record(bus, msg::kVehicleState);
+  log.record(bus, msg::kApsFrame);
+  if (events) log.record(bus, msg::kEvents);
+  log.record(bus, msg::kPicture);
+  log.record(bus, msg::kTagDetections);
+  log.record(bus, msg::kTargetEstimate);
+  log.record(bus, msg::kMissionTransition);
+  log.record(bus, msg::kAttitudeSetpoint);
+}
+
+/// One flight: all modules on one bus, and what is written down about it.
+class Run {
+ public:
+  Run(const Scenario& scenario, const RunOptions& options);
+
+  void fly();
+  Summary finish(double wall_time_s);
+
+ private:
+  void take(const PictureRecord& record);
+  bool over() const;
+
+  const Scenario& scenario_;
+  const RunOptions& options_;
+  sim::Simulation simulation_;
+  OutputFolder folder_;
+  msg::Bus bus_;
+  Scorer scorer_;
+  EstimatesCsv csv_;
+  msg::LogWriter log_;
+  std::optional<Video> video_;
+  SimulationNode world_;
+  ReconstructionNode reconstruction_;
+  TrackerNode tracker_;
+  RecordNode records_;
+  core::MissionPhase phase_ = core::MissionPhase::search;
+  std::optional<core::Time> touched_down_;
+  core::Time end_;
+};
+
+Scorer::Setup scorer_setup(const Scenario& scenario, const core::CameraModel& camera) {
+  return {scenario.name, static_cast<std::uint64_t>(scenario.seed), camera,
+          scenario.tracker.detector.tag_size_m, scenario.pass};
+}
+
+Run::Run(const Scenario& scenario, const RunOptions& options)
+    : scenario_(scenario),
+      options_(options),
+      simulation_(scenario.world, scenario.camera, scenario.sensor, scenario.model,
+                  scenario.illuminance_lux, static_cast<std::uint64_t>(scenario.seed)),
+      folder_(options.out),
+      scorer_(scorer_setup(scenario, simulation_.world().camera_model())),
+      csv_(folder_),
+      log_(folder_.path(kLogFile)),
+      world_(bus_, simulation_),
+      reconstruction_(bus_, scenario.esi, simulation_.world().camera_model().size),
+      tracker_(bus_, scenario.tracker, simulation_.world().camera_model(),
+               simulation_.world().T_body_camera()),
+      records_(bus_, [this](const PictureRecord& record) { take(record); }),
+      end_(core::from_seconds(scenario.duration_s)) {
+  spdlog::info("rendering with {}", simulation_.world().renderer_description());
+  save(scenario, folder_.part(kScenarioFile));
+  folder_.complete(kScenarioFile);
+  record_channels(log_, bus_, options.record_events);
+  bus_.subscribe(msg::kMissionTransition, [this](const core::MissionTransition& transition) {
+    scorer_.add(transition);
+    phase_ = transition.to;
+    if (phase_ == core::MissionPhase::touched_down) touched_down_ = transition.t;
+    spdlog::info("{:7.2f} s  {} -> {}: {}", core::seconds(transition.t), to_string(transition.from),
+                 to_string(transition.to), transition.cause);
+  });
+  if (options.video) video_.emplace(bus_, folder_, simulation_.world().camera_model());
+}
+
+void Run::take(const PictureRecord& record) {
+  scorer_.add(record);
+  csv_.add(record);
+  if (video_) video_->add(record);
+}
+
+bool Run::over() const {
+  const core::Truth& truth = world_.step().truth;
+  return truth.t >= end_ || truth.crashed ||
+         (touched_down_ && truth.t >= *touched_down_ + kAfterTouchdown);
+}
+
+void Run::fly() {
+  do {
+    world_.take_setpoint();
+    std::future<std::size_t> handled =
+        std::async(std::launch::async, [this] { return bus_.dispatch(); });
+    world_.advance();
+    handled.get();
+    if (video_) video_->draw_chase(simulation_.world());
+    scorer_.add_events(static_cast<std::int64_t>(world_.step().packet.events.size()));
+    world_.publish();
+    if (options_.on_progress)
+      options_.on_progress(core::seconds(world_.step().truth.t), scenario_.duration_s,
+                           to_string(phase_));
+  } while (!over());
+  bus_.dispatch();
+}
+
+Summary Run::finish(double wall_time_s) {
+  if (video_) video_->finish();
+  csv_.finish();
+  log_.finish();
+  const auto lost = simulation_.camera().readout_counts().lost;
+  if (lost > 0) spdlog::warn("the readout lost {} events", lost);
+  scorer_.add_lost_events(static_cast<std::int64_t>(lost));
+  Summary summary = scorer_.summary(world_.step().truth.t, wall_time_s);
+  folder_.write(kSummaryFile, to_json(summary));
+  return summary;
+}
+
+}  // namespace
+
+Summary run(const Scenario& scenario, const RunOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  Run flight(scenario, options);
+  flight.fly();
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  return flight.finish(wall.count());
+}
+
+}  // namespace nightjar::scenarios

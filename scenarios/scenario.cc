@@ -1,0 +1,74 @@
+#include "scenarios/scenario.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <system_error>
+
+#include "core/config_check.h"
+#include "scenarios/yaml_reader.h"
+#include "scenarios/yaml_writer.h"
+
+namespace nightjar::scenarios {
+namespace fs = std::filesystem;
+namespace {
+
+// "dark.yaml:3:1" for a top-level key that stands in the document, else "dark.yaml".
+std::string place_of(const std::string& key, const YamlNode& root, const std::string& file) {
+  for (const YamlNode& member : root.children)
+    if (member.key == key) return fmt::format("{}:{}:{}", file, member.line, member.column);
+  return file;
+}
+
+bool is_file(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+std::string no_model(const std::string& model) {
+  return model.empty() ? "model is not set, expected an MJCF file"
+                       : fmt::format("model = {}, no such file", shown(model));
+}
+
+}  // namespace
+
+Scenario load(const fs::path& path) { return parse(read_scenario_text(path), path); }
+
+Scenario parse(const std::string& text, const fs::path& path) {
+  const std::string file = shown(path.string());
+  const YamlNode root = parse_yaml(text, file);
+  Scenario scenario;
+  YamlReader reader(root, file, "");
+  scenario.visit(reader);
+  reader.finish();
+  const fs::path model = path.parent_path() / scenario.model;
+  if (scenario.model.empty() || !is_file(model))
+    throw ScenarioError(place_of("model", root, file) + ": " + no_model(scenario.model));
+  scenario.model = fs::proximate(model).string();
+  try {
+    check(scenario);
+  } catch (const std::invalid_argument& error) {  // a default, or values that do not fit
+    throw ScenarioError(file + ": " + error.what());
+  }
+  return scenario;
+}
+
+void check(const Scenario& scenario) {
+  try {
+    core::check_config(scenario, "");
+  } catch (const std::invalid_argument& error) {
+    throw ScenarioError(error.what());
+  }
+  if (!is_file(scenario.model)) throw ScenarioError(no_model(scenario.model));
+}
+
+void save(const Scenario& scenario, const fs::path& path) {
+  Scenario copy = scenario;
+  copy.model = fs::proximate(scenario.model, fs::absolute(path).parent_path()).string();
+  std::ofstream stream(path, std::ios::binary);
+  stream << to_yaml(copy);
+  stream.close();
+  if (!stream) throw ScenarioError(shown(path.string()) + ": cannot be written");
+}
+
+}  // namespace nightjar::scenarios

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+
+#include "core/random.h"
+#include "core/state.h"
+#include "sim/config.h"
+#include "sim/quadrotor.h"
+
+namespace nightjar::sim {
+
+/// A stationary first-order Gauss-Markov error in three axes.
+class GaussMarkov {
+ public:
+  /// `sigma` is the stationary standard deviation of each axis.
+  GaussMarkov(const Eigen::Vector3d& sigma, double correlation_s, core::Random random);
+  const Eigen::Vector3d& value() const { return value_; }
+  void advance(double dt_s);  ///< exact for any step
+
+ private:
+  Eigen::Vector3d noise();
+
+  Eigen::Vector3d sigma_;
+  double correlation_s_;
+  core::Random random_;
+  Eigen::Vector3d value_;
+};
+
+/// The flight controller of the UAV: estimates its own state (truth plus stated
+/// errors, AutopilotConfig) and holds the attitude and thrust it is asked for.
+class Autopilot {
+ public:
+  Autopilot(const AutopilotConfig& config, const Quadrotor& quadrotor, std::uint64_t seed);
+
+  /// Lets the errors evolve by `dt_s` and observes the scene at time `t`.
+  void observe(const Scene& scene, core::Time t, double dt_s);
+
+  /// The estimate as of the last observe().
+  const core::VehicleState& state() const { return state_; }
+
+  /// Rotor thrusts (N) that pull the estimated attitude towards the setpoint.
+  Quadrotor::Thrusts control(const core::AttitudeSetpoint& setpoint) const;
+
+ private:
+  AutopilotConfig config_;
+  const Quadrotor& quadrotor_;
+  GaussMarkov position_error_m_;
+  GaussMarkov velocity_error_m_s_;
+  GaussMarkov attitude_error_rad_;  ///< rotation vector in world axes
+  core::Random gyro_random_;
+  core::VehicleState state_;
+};
+
+}  // namespace nightjar::sim

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "core/image.h"
+#include "sim/scene.h"
+
+namespace nightjar::sim {
+
+/// Red, green, blue, 8 bits each; for people, never for the sensor.
+using Rgb = std::array<std::uint8_t, 3>;
+
+/// Draws a scene off-screen with MuJoCo on OSMesa, in float throughout.
+class Renderer {
+ public:
+  /// `size`: of the sensor; every pixel is the mean of supersampling^2 samples.
+  /// Throws std::runtime_error when OSMesa cannot draw floats or is not llvmpipe
+  /// (Mesa's other software renderer is some sixty times slower).
+  Renderer(Scene& scene, core::Resolution size, int supersampling);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  /// What draws, as OpenGL names it.
+  const std::string& description() const { return description_; }
+
+  /// What the fixed `camera` sees of geom group 0: luminance (Rec. 709 weights) in
+  /// lux, `white_lux` being a white level surface under the scene's lights.
+  void draw(Scene& scene, int camera, double white_lux, core::Image<float>& luminance_lux);
+
+  /// A colour view for people of what lies around `look_at_m`, all groups that are
+  /// ever drawn, from `distance_m` away. Angles in degrees, MuJoCo's free camera.
+  void draw_view(Scene& scene, const std::array<double, 3>& look_at_m, double distance_m,
+                 double azimuth_deg, double elevation_deg, core::Image<Rgb>& view);
+
+ private:
+  struct Gl;
+  std::unique_ptr<Gl> gl_;
+  core::Resolution size_;
+  int supersampling_;
+  std::string description_;
+};
+
+}  // namespace nightjar::sim

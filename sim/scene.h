@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+struct mjModel_;
+struct mjData_;
+
+namespace nightjar::sim {
+
+/// A MuJoCo model with its state. Poses are in world axes (docs/frames.md).
+class Scene {
+ public:
+  /// Throws std::invalid_argument when the file is missing or MuJoCo refuses it.
+  explicit Scene(const std::filesystem::path& model_file);
+
+  const mjModel_* model() const { return model_.get(); }
+  mjModel_* model() { return model_.get(); }
+  const mjData_* data() const { return data_.get(); }
+  mjData_* data() { return data_.get(); }
+
+  /// Number of a named element (`type` is an mjtObj). Throws
+  /// std::invalid_argument naming the file when the scene lacks it.
+  int id(int type, const std::string& name) const;
+
+  /// Pose of a body's frame, a site, a camera (MuJoCo's axes: looks along -z).
+  Eigen::Isometry3d T_world_body(int body) const;
+  Eigen::Isometry3d T_world_site(int site) const;
+  Eigen::Isometry3d T_world_camera(int camera) const;
+
+  /// Velocity (m/s) of a point that moves with `body`; both in world axes.
+  Eigen::Vector3d velocity_at(int body, const Eigen::Vector3d& p_world_m) const;
+  /// Angular velocity of `body` in world axes.
+  Eigen::Vector3d omega_world(int body) const;
+
+  /// Places a free body at rest; call settle() afterwards.
+  void place(const std::string& free_joint, const Eigen::Isometry3d& T_world_body);
+  /// Brings all that derives from the state up to date.
+  void settle();
+  /// One step of the physics.
+  void step();
+
+ private:
+  struct DeleteModel { void operator()(mjModel_*) const; };
+  struct DeleteData { void operator()(mjData_*) const; };
+
+  std::filesystem::path file_;
+  std::unique_ptr<mjModel_, DeleteModel> model_;
+  std::unique_ptr<mjData_, DeleteData> data_;
+};
+
+}  // namespace nightjar::sim

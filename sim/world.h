@@ -1,0 +1,75 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/camera_model.h"
+#include "core/truth.h"
+#include "sim/autopilot.h"
+#include "sim/config.h"
+#include "sim/quadrotor.h"
+#include "sim/renderer.h"
+#include "sim/scene.h"
+#include "sim/ugv.h"
+
+namespace nightjar::sim {
+
+/// UAV, UGV and arena: physics, inner loops and what a camera sees of them.
+class World {
+ public:
+  /// Throws std::invalid_argument for a model that lacks a part or a time step
+  /// that is not a whole number of microseconds.
+  World(const WorldConfig& config, const CameraConfig& camera,
+        const std::filesystem::path& model_file, std::uint64_t seed);
+
+  core::Time now() const { return now_; }
+  core::Time time_step() const { return time_step_; }
+
+  /// The setpoint that the autopilot holds from now on.
+  void command(const core::AttitudeSetpoint& setpoint) { setpoint_ = setpoint; }
+
+  /// Runs the physics for one time step.
+  void step();
+
+  /// The autopilot's estimate of the UAV, and what really is.
+  const core::VehicleState& vehicle_state() const { return autopilot_.state(); }
+  core::Truth truth() const;
+
+  const core::CameraModel& camera_model() const { return camera_model_; }
+  /// Where the camera sits on the UAV.
+  Eigen::Isometry3d T_body_camera() const;
+
+  /// Fastest image motion (px/s) of the floor or the landing board at this moment.
+  double image_motion_px_s() const;
+
+  /// What the UAV's camera sees (Renderer::draw).
+  void draw(double white_lux, core::Image<float>& luminance_lux) {
+    renderer_.draw(scene_, camera_, white_lux, luminance_lux);
+  }
+
+  /// A colour view over both vehicles, from behind the UGV.
+  void draw_chase(core::Image<Rgb>& view);
+
+  const std::string& renderer_description() const { return renderer_.description(); }
+
+ private:
+  Eigen::Isometry3d T_world_camera() const;
+  void place_vehicles(const WorldConfig& config);
+  void note_contacts();
+
+  Scene scene_;
+  Quadrotor quadrotor_;
+  Autopilot autopilot_;
+  Ugv ugv_;
+  int camera_, tag_site_, board_geom_, ugv_body_;
+  core::CameraModel camera_model_;
+  Renderer renderer_;
+  core::Time time_step_;
+  core::Time now_{};
+  core::AttitudeSetpoint setpoint_;
+  bool on_board_ = false, crashed_ = false, ugv_collided_ = false;
+  double chase_azimuth_deg_ = 0;
+  bool chase_started_ = false;
+};
+
+}  // namespace nightjar::sim

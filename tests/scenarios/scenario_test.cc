@@ -1,0 +1,191 @@
+#include "scenarios/scenario.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "scenarios/yaml_writer.h"
+
+namespace nightjar::scenarios {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder of its own with a model in it.
+class ScenarioTest : public testing::Test {
+ protected:
+  ScenarioTest() {
+    fs::create_directories(folder_ / "models");
+    std::ofstream(folder_ / "models" / "arena.xml") << "<mujoco/>";
+  }
+  ~ScenarioTest() override { fs::remove_all(folder_); }
+
+  fs::path write(const std::string& text) const {
+    const fs::path path = folder_ / "dark.yaml";
+    std::ofstream(path, std::ios::binary) << text;
+    return path;
+  }
+
+  // What load() says about a file with `text`, without the folder.
+  std::string complaint(const std::string& text) const {
+    try {
+      load(write(text));
+    } catch (const ScenarioError& error) {
+      return std::string(error.what()).substr(folder_.string().size() + 1);
+    }
+    return "no complaint";
+  }
+
+  fs::path folder_ = fs::temp_directory_path() / ("nightjar_scenario_" + std::to_string(getpid()));
+};
+
+TEST_F(ScenarioTest, FindsTheModelBesideTheFile) {
+  const Scenario scenario = load(write("model: models/arena.xml\nseed: 5\n"));
+  EXPECT_EQ(scenario.seed, 5);
+  EXPECT_TRUE(fs::equivalent(scenario.model, folder_ / "models" / "arena.xml"));
+}
+
+TEST_F(ScenarioTest, RefusesEveryBadFileOfTheIssueInOneLine) {
+  const std::string model = "model: models/arena.xml\n";
+  EXPECT_EQ(complaint(model + "ilumination: 5\n").substr(0, 66),
+            "dark.yaml:2:1: ilumination: unknown key, nearest is illuminance_lu");
+  EXPECT_EQ(complaint(model + "illuminance_lux: bright\n"),
+            "dark.yaml:2:1: illuminance_lux = bright, expected a number from 0.1 to 100000");
+  EXPECT_EQ(complaint(model + "illuminance_lux: -5\n"),
+            "dark.yaml:2:1: illuminance_lux = -5, allowed 0.1 to 100000");
+  EXPECT_EQ(complaint("seed: 1\nmodel: models/none.xml\n"),
+            "dark.yaml:2:1: model = models/none.xml, no such file");
+  EXPECT_EQ(complaint("model: models\n"), "dark.yaml:1:1: model = models, no such file");
+  EXPECT_EQ(complaint("seed: 1\n"), "dark.yaml: model is not set, expected an MJCF file");
+  EXPECT_EQ(complaint(""), "dark.yaml:1:1: the file is empty");
+  EXPECT_EQ(complaint(model + "seed: 5000000000\n"),
+            "dark.yaml:2:1: seed = 5000000000, allowed 0 to 2147483647");
+}
+
+TEST_F(ScenarioTest, SaysWhichFileIsMissing) {
+  try {
+    load(folder_ / "none.yaml");
+    FAIL() << "no complaint";
+  } catch (const ScenarioError& error) {
+    EXPECT_EQ(error.what(), (folder_ / "none.yaml").string() + ": no such file");
+  }
+}
+
+TEST_F(ScenarioTest, ReadsBackWhatItSavedAnywhere) {
+  Scenario scenario = load(write("model: models/arena.xml\nname: \"a: b\"\nduration_s: 0.1\n"));
+  scenario.illuminance_lux = 1.0 / 3.0;
+  scenario.world.ugv.course.push_back({1, 2, 0.1, sim::CoursePhase::landing});
+  fs::create_directories(folder_ / "out" / "deep");
+  const fs::path path = folder_ / "out" / "deep" / "scenario.yaml";
+  save(scenario, path);
+  EXPECT_EQ(to_yaml(load(path)), to_yaml(scenario));
+}
+
+TEST_F(ScenarioTest, SavesThePixelsOfACustomSensor) {
+  Scenario scenario = load(write("model: models/arena.xml\nsensor: {preset: custom}\n"));
+  scenario.sensor.pixel.cutoff_hz = 123.456;
+  save(scenario, folder_ / "scenario.yaml");
+  EXPECT_EQ(load(folder_ / "scenario.yaml").sensor.pixel.cutoff_hz, 123.456);
+}
+
+TEST_F(ScenarioTest, SaysWhenItCannotSave) {
+  const Scenario scenario = load(write("model: models/arena.xml\n"));
+  EXPECT_THROW(save(scenario, folder_ / "none" / "scenario.yaml"), ScenarioError);
+  EXPECT_THROW(save(scenario, "/dev/full"), ScenarioError);  // a disk without room
+}
+
+TEST_F(ScenarioTest, ChecksAScenarioMadeInCode) {
+  Scenario scenario = load(write("model: models/arena.xml\n"));
+  EXPECT_NO_THROW(check(scenario));
+  scenario.illuminance_lux = 0;
+  EXPECT_THROW(check(scenario), ScenarioError);
+}
+
+// A visitor that collects every number of a scenario with its range.
+class Collector {
+ public:
+  struct Number {
+    std::function<void(double)> set;
+    double value, least, greatest;
+    bool whole;
+    std::string path;
+  };
+
+  void field(const char* name, double& value, double least, double greatest) {
+    numbers.push_back(
+        {[&value](double v) { value = v; }, value, least, greatest, false, path + name});
+  }
+  void field(const char* name, int& value, int least, int greatest) {
+    const auto set = [&value](double v) { value = static_cast<int>(v); };
+    numbers.push_back({set, static_cast<double>(value), static_cast<double>(least),
+                       static_cast<double>(greatest), true, path + name});
+  }
+  template <std::size_t N>
+  void field(const char* name, std::array<double, N>& values, double least, double greatest) {
+    for (double& value : values) field(name, value, least, greatest);
+  }
+  void field(const char*, bool&) {}
+  void field(const char*, std::string&) {}
+  template <class Enum, std::size_t N>
+  void choice(const char*, Enum&, const core::Choices<Enum, N>&) {}
+  template <class Config>
+  void section(const char* name, Config& config) {
+    const std::string outer = path;
+    path += std::string(name) + '.';
+    config.visit(*this);
+    path = outer;
+  }
+  template <class Config>
+  void list(const char* name, std::vector<Config>& configs, std::size_t, std::size_t) {
+    for (Config& config : configs) section(name, config);
+  }
+
+  std::vector<Number> numbers;
+  std::string path;
+};
+
+TEST_F(ScenarioTest, TakesEveryNumberAtItsEndsAndRefusesItJustOutside) {
+  Scenario scenario = load(write("model: models/arena.xml\nsensor: {preset: custom}\n"));
+  const fs::path path = folder_ / "dark.yaml";
+  Collector collector;
+  scenario.visit(collector);
+  ASSERT_GT(collector.numbers.size(), 50u);
+  const auto text_with = [&](const Collector::Number& number, double value) {
+    number.set(value);
+    Scenario copy = scenario;
+    copy.model = "models/arena.xml";
+    number.set(number.value);
+    return to_yaml(copy);
+  };
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (const Collector::Number& number : collector.numbers) {
+    EXPECT_NO_THROW(parse(text_with(number, number.least), path)) << number.path;
+    EXPECT_NO_THROW(parse(text_with(number, number.greatest), path)) << number.path;
+    if (number.whole && number.greatest == std::numeric_limits<int>::max()) continue;
+    const double below = number.whole ? number.least - 1 : std::nextafter(number.least, -kInfinity);
+    const double above =
+        number.whole ? number.greatest + 1 : std::nextafter(number.greatest, kInfinity);
+    EXPECT_THROW(parse(text_with(number, below), path), ScenarioError) << number.path;
+    EXPECT_THROW(parse(text_with(number, above), path), ScenarioError) << number.path;
+  }
+}
+
+TEST(ShippedScenarios, AllLoad) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(NIGHTJAR_SOURCE_DIR) / "scenarios")) {
+    if (entry.path().extension() != ".yaml") continue;
+    EXPECT_NO_THROW(load(entry.path())) << entry.path();
+    ++count;
+  }
+  EXPECT_GT(count, 0);
+}
+
+}  // namespace
+}  // namespace nightjar::scenarios

@@ -1,0 +1,133 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace nightjar::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream stream(path);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+// Runs the built program in a folder of its own, without a person to ask.
+class BadScenarioTest : public testing::Test {
+ protected:
+  BadScenarioTest() {
+    fs::create_directories(folder_);
+    std::ofstream(folder_ / "arena.xml") << "<mujoco/>";
+  }
+  ~BadScenarioTest() override { fs::remove_all(folder_); }
+
+  void write(const std::string& text) const { std::ofstream(folder_ / "dark.yaml") << text; }
+
+  // The exit code; what it said goes to `out` and `err`.
+  int run(const std::string& arguments) {
+    const std::string command = "cd '" + folder_.string() + "' && '" NIGHTJAR_PROGRAM "' " +
+                                arguments + " >out.txt 2>err.txt </dev/null";
+    const int status = std::system(command.c_str());
+    out = text_of(folder_ / "out.txt");
+    err = text_of(folder_ / "err.txt");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  // Bad input: exit 2, one line that holds `part`, and no result.
+  void expect_refused(const std::string& arguments, const std::string& part) {
+    EXPECT_EQ(run(arguments), 2) << err;
+    EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+    EXPECT_TRUE(err.starts_with("nightjar: ") && err.ends_with("\n")) << err;
+    EXPECT_NE(err.find(part), std::string::npos) << err;
+    EXPECT_EQ(out, "");
+    EXPECT_FALSE(fs::exists(folder_ / "results" / "summary.json"));
+  }
+
+  void expect_refused_text(const std::string& text, const std::string& part) {
+    write(text);
+    expect_refused("run dark.yaml --out results", part);
+  }
+
+  fs::path folder_ = fs::temp_directory_path() / ("nightjar_bad_" + std::to_string(getpid()));
+  std::string out;
+  std::string err;
+};
+
+TEST_F(BadScenarioTest, AnUnknownKeyIsRefused) {
+  expect_refused_text("model: arena.xml\nilluminance: 5\n",
+                      "dark.yaml:2:1: illuminance: unknown key, nearest is illuminance_lux");
+}
+
+TEST_F(BadScenarioTest, TextForANumberIsRefused) {
+  expect_refused_text("model: arena.xml\nduration_s: long\n",
+                      "dark.yaml:2:1: duration_s = long, expected a number");
+}
+
+TEST_F(BadScenarioTest, NegativeLightIsRefused) {
+  expect_refused_text("model: arena.xml\nilluminance_lux: -5\n",
+                      "dark.yaml:2:1: illuminance_lux = -5, allowed 0.1 to 100000");
+}
+
+TEST_F(BadScenarioTest, AMissingModelIsRefused) {
+  expect_refused_text("model: none.xml\n", "dark.yaml:1:1: model = none.xml, no such file");
+}
+
+TEST_F(BadScenarioTest, AModelThatIsNoSceneIsRefused) {
+  expect_refused_text("model: arena.xml\n", "arena.xml");
+}
+
+TEST_F(BadScenarioTest, AnEmptyFileIsRefused) { expect_refused_text("", "dark.yaml:1:1: "); }
+
+TEST_F(BadScenarioTest, BrokenYamlIsRefused) {
+  expect_refused_text("model: [arena.xml\n", "not valid YAML");
+}
+
+TEST_F(BadScenarioTest, AMissingFileIsRefused) {
+  expect_refused("run none.yaml --out results", "none.yaml: no such file");
+}
+
+TEST_F(BadScenarioTest, AFolderInsteadOfAFileIsRefused) {
+  expect_refused("run . --out results", "a directory, expected a scenario file");
+}
+
+TEST_F(BadScenarioTest, AnUnwritableOutputIsRefused) {
+  const std::string scenario =
+      "run '" NIGHTJAR_SOURCE_DIR "/scenarios/tracking_landing.yaml' --no-video --out ";
+  expect_refused(scenario + "arena.xml/results", "arena.xml");  // below a file
+  expect_refused(scenario + "arena.xml", "arena.xml");
+  expect_refused(scenario + "/proc/nightjar", "/proc/nightjar");  // not even for root
+}
+
+TEST_F(BadScenarioTest, ASeedThatIsNoNumberIsRefused) {
+  write("model: arena.xml\n");
+  for (const std::string seed : {"abc", "1.5", "-1", "99999999999", "''"})
+    expect_refused("run dark.yaml --out results --seed " + seed, "--seed");
+}
+
+TEST_F(BadScenarioTest, AWrongCommandLineIsRefused) {
+  expect_refused("", "subcommand");
+  expect_refused("fly", "fly");
+  expect_refused("run", "SCENARIO");
+  expect_refused("run dark.yaml", "--out");
+  expect_refused("run dark.yaml --out results --fast", "--fast");
+}
+
+TEST_F(BadScenarioTest, HelpIsNoError) {
+  EXPECT_EQ(run("run --help"), 0);
+  EXPECT_EQ(err, "");
+  EXPECT_NE(out.find("Examples:"), std::string::npos);
+  EXPECT_EQ(run("parameters"), 0);
+  EXPECT_NE(out.find("illuminance_lux"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace nightjar::tools

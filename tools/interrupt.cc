@@ -1,0 +1,26 @@
+#include "tools/interrupt.h"
+
+#include <csignal>
+
+namespace nightjar::tools {
+namespace {
+
+volatile std::sig_atomic_t noted = 0;
+
+void note(int signal) {
+  noted = 1;
+  std::signal(signal, SIG_DFL);
+}
+
+}  // namespace
+
+void note_interrupts() {
+  std::signal(SIGINT, note);
+  std::signal(SIGTERM, note);
+}
+
+void throw_if_interrupted() {
+  if (noted) throw Interrupted();
+}
+
+}  // namespace nightjar::tools

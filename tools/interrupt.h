@@ -1,0 +1,20 @@
+#pragma once
+
+#include <exception>
+
+namespace nightjar::tools {
+
+/// Thrown between two steps of a run after Ctrl-C.
+class Interrupted : public std::exception {
+ public:
+  const char* what() const noexcept override { return "interrupted"; }
+};
+
+/// From now on SIGINT and SIGTERM are noted instead of ending the process; a
+/// second one ends it.
+void note_interrupts();
+
+/// Throws Interrupted once a signal has been noted.
+void throw_if_interrupted();
+
+}  // namespace nightjar::tools

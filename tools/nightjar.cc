@@ -1,0 +1,48 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <exception>
+#include <iostream>
+#include <stdexcept>
+#include <string>
+
+#include "tools/exit_code.h"
+#include "tools/interrupt.h"
+#include "tools/parameters_command.h"
+#include "tools/run_command.h"
+
+namespace {
+
+using namespace nightjar::tools;
+
+int complain(int exit_code, std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  std::cerr << "nightjar: " << message << '\n';
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Nightjar flies an event camera over a tagged ground vehicle, in the dark.");
+  app.set_version_flag("--version", NIGHTJAR_VERSION);
+  app.require_subcommand(0, 1);  // none is refused below, after a misspelt one
+  int exit_code = kPassed;
+  add_run_command(app, exit_code);
+  add_parameters_command(app);
+  try {
+    app.parse(argc, argv);
+    if (app.get_subcommands().empty())
+      return complain(kBadInput, "which subcommand? See nightjar --help");
+    return exit_code;
+  } catch (const CLI::Success& help_or_version) {
+    return app.exit(help_or_version);
+  } catch (const CLI::ParseError& error) {
+    return complain(kBadInput, error.what());
+  } catch (const Interrupted& interrupted) {
+    return complain(kInterrupted, interrupted.what());
+  } catch (const std::invalid_argument& error) {
+    return complain(kBadInput, error.what());
+  } catch (const std::exception& error) {
+    return complain(kBroken, error.what());
+  }
+}
