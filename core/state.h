@@ -31,7 +31,8 @@ struct TagDetection {
   int id = 0;
   int hamming = 0;
   double decision_margin = 0;
-  std::array<Eigen::Vector2d, 4> corner_px{};
+  std::array<Eigen::Vector2d, 4> corner_px = {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(),
+                                              Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
 };
 
 /// The UGV's motion as estimated for time `t`, in the world.

@@ -8,7 +8,7 @@
 namespace nightjar::core {
 
 /// What really is, for scoring and plots only: no module of the loop under test
-/// may include this file (tests/include_rule_test.cc).
+/// may include this file (tests/rules/include_rule_test.cc).
 struct Truth {
   Time t{};
   VehicleState uav;

@@ -17,8 +17,8 @@ void check_channel(const std::string& channel) {
     return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
   };
   if (channel.empty() || channel.size() > 63 || !std::ranges::all_of(channel, allowed))
-    throw std::invalid_argument(fmt::format(
-        "channel = \"{}\", allowed 1 to 63 letters, digits and underscores", channel));
+    throw std::invalid_argument(
+        fmt::format("channel = \"{}\", allowed 1 to 63 letters, digits and underscores", channel));
 }
 
 }  // namespace

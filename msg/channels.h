@@ -21,8 +21,7 @@ inline constexpr Channel<TagDetections> kTagDetections{"NIGHTJAR_TAG_DETECTIONS"
 inline constexpr Channel<core::TargetEstimate> kTargetEstimate{"NIGHTJAR_TARGET_ESTIMATE"};
 inline constexpr Channel<core::VehicleState> kVehicleState{"NIGHTJAR_VEHICLE_STATE"};
 inline constexpr Channel<core::AttitudeSetpoint> kAttitudeSetpoint{"NIGHTJAR_ATTITUDE_SETPOINT"};
-inline constexpr Channel<core::MissionTransition> kMissionTransition{
-    "NIGHTJAR_MISSION_TRANSITION"};
+inline constexpr Channel<core::MissionTransition> kMissionTransition{"NIGHTJAR_MISSION_TRANSITION"};
 inline constexpr Channel<core::Truth> kTruth{"NIGHTJAR_TRUTH"};
 
 }  // namespace nightjar::msg

@@ -34,9 +34,8 @@ void check_interval(std::int64_t begin_us, std::int64_t end_us) {
   // Unsigned, because times far apart would overflow a signed difference.
   const auto length_us = static_cast<std::uint64_t>(end_us) - static_cast<std::uint64_t>(begin_us);
   if (end_us < begin_us || length_us > kLongestPacket_us)
-    throw std::invalid_argument(
-        fmt::format("event packet: ({}, {}] us, allowed 0 to {} us long", begin_us, end_us,
-                    kLongestPacket_us));
+    throw std::invalid_argument(fmt::format("event packet: ({}, {}] us, allowed 0 to {} us long",
+                                            begin_us, end_us, kLongestPacket_us));
 }
 
 void check_events(const core::EventPacket& packet) {
@@ -60,8 +59,7 @@ Bytes encode(const core::EventPacket& packet) {
   message.begin_us = to_us(packet.begin);
   message.n = static_cast<std::int32_t>(packet.events.size());
   message.event.reserve(packet.events.size());
-  for (const core::Event& event : packet.events)
-    message.event.push_back(pack(event, packet.begin));
+  for (const core::Event& event : packet.events) message.event.push_back(pack(event, packet.begin));
   return to_bytes(message);
 }
 
@@ -73,8 +71,7 @@ core::EventPacket decode(std::span<const std::uint8_t> bytes) {
   check_interval(message.begin_us, message.time_us);
   core::EventPacket packet{core::Time(message.begin_us), core::Time(message.time_us), {}};
   packet.events.reserve(message.event.size());
-  for (const std::int64_t word : message.event)
-    packet.events.push_back(unpack(word, packet.begin));
+  for (const std::int64_t word : message.event) packet.events.push_back(unpack(word, packet.begin));
   check_events(packet);
   return packet;
 }

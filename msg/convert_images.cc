@@ -23,8 +23,8 @@ core::Image<std::uint8_t> get_image(const Lcm& message) {
   if (message.width_px < 0 || message.height_px < 0 ||
       std::int64_t{message.width_px} * message.height_px != message.n)
     throw std::invalid_argument(fmt::format("{}: {} x {} px with {} bytes, wanted one a pixel",
-                                            Lcm::getTypeName(), message.width_px,
-                                            message.height_px, message.n));
+                                            Lcm::getTypeName(), message.width_px, message.height_px,
+                                            message.n));
   core::Image<std::uint8_t> image(core::Resolution{message.width_px, message.height_px});
   std::ranges::copy(message.gray, image.pixels().begin());
   return image;
@@ -60,8 +60,7 @@ core::ApsFrame decode(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t kCountOffset = 8 + 8 + 8 + 4 + 4;  // and exposure_begin_us
   check_array_fits("aps_frame_t", bytes, kCountOffset, 1);
   const auto message = from_bytes<nightjar_lcm::aps_frame_t>(bytes);
-  return {core::Time(message.exposure_begin_us), core::Time(message.time_us),
-          get_image(message)};
+  return {core::Time(message.exposure_begin_us), core::Time(message.time_us), get_image(message)};
 }
 
 }  // namespace nightjar::msg

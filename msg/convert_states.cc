@@ -25,9 +25,7 @@ void put(const Eigen::Quaterniond& q, double (&wxyz)[4]) {
   wxyz[3] = q.z();
 }
 
-Eigen::Quaterniond get(const double (&wxyz)[4]) {
-  return {wxyz[0], wxyz[1], wxyz[2], wxyz[3]};
-}
+Eigen::Quaterniond get(const double (&wxyz)[4]) { return {wxyz[0], wxyz[1], wxyz[2], wxyz[3]}; }
 
 using Rows = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
 
@@ -108,7 +106,7 @@ Bytes encode(const TagDetections& detections) {
 
 template <>
 TagDetections decode(std::span<const std::uint8_t> bytes) {
-  constexpr std::size_t kCountOffset = 8 + 8;                // fingerprint, time_us
+  constexpr std::size_t kCountOffset = 8 + 8;               // fingerprint, time_us
   constexpr std::size_t kTagBytes = 4 + 4 + 8 + 4 * 2 * 8;  // id, hamming, margin, corners
   check_array_fits("tag_detections_t", bytes, kCountOffset, kTagBytes);
   const auto message = from_bytes<nightjar_lcm::tag_detections_t>(bytes);

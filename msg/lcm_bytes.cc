@@ -27,9 +27,8 @@ void check_array_fits(const char* type, std::span<const std::uint8_t> bytes,
   const auto n = static_cast<std::int32_t>(read_big_endian<std::uint32_t>(bytes, count_offset));
   const std::size_t left = bytes.size() - head;
   if (n < 0 || static_cast<std::size_t>(n) * element_bytes != left)
-    throw std::invalid_argument(
-        fmt::format("{}: n = {}, but {} bytes follow, wanted {} an element", type, n, left,
-                    element_bytes));
+    throw std::invalid_argument(fmt::format("{}: n = {}, but {} bytes follow, wanted {} an element",
+                                            type, n, left, element_bytes));
 }
 
 core::Time message_time(std::span<const std::uint8_t> bytes) {

@@ -31,8 +31,7 @@ struct LogWriter::Impl {
   std::unique_ptr<lcm::LogFile> log;  // none once finished
 };
 
-LogWriter::LogWriter(std::filesystem::path path)
-    : impl_(std::make_unique<Impl>(std::move(path))) {
+LogWriter::LogWriter(std::filesystem::path path) : impl_(std::make_unique<Impl>(std::move(path))) {
   if (!impl_->log->good()) throw_unwritten(impl_->path);
 }
 

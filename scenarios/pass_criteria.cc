@@ -15,8 +15,7 @@ std::vector<std::string> failed_criteria(const PassCriteria& criteria, const Sum
   };
   if (summary.crashed) failed.push_back("crashed = true, wanted false");
   if (summary.ugv_collided) failed.push_back("ugv_collided = true, wanted false");
-  if (criteria.require_landed && !summary.landed)
-    failed.push_back("landed = false, wanted true");
+  if (criteria.require_landed && !summary.landed) failed.push_back("landed = false, wanted true");
   if (summary.landed)
     at_most("touchdown_error_m", summary.touchdown_error_m, criteria.max_touchdown_error_m);
   if (!(summary.detection_rate >= criteria.min_detection_rate))

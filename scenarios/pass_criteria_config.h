@@ -6,8 +6,8 @@ namespace nightjar::scenarios {
 /// UGV that hits an obstacle fail it.
 struct PassCriteria {
   bool require_landed = true;
-  double max_touchdown_error_m = 0.10;        ///< judged when it landed
-  double min_detection_rate = 0.74;           ///< share of pictures; the ESI paper's figure
+  double max_touchdown_error_m = 0.10;  ///< judged when it landed
+  double min_detection_rate = 0.74;     ///< share of pictures; the ESI paper's figure
   int max_false_detections = 0;
   double max_relative_position_rmse_m = 0.5;  ///< without any valid estimate it fails
 

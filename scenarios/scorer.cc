@@ -70,16 +70,16 @@ void Scorer::check_times(const PictureRecord& record) const {
   if (record.estimate.valid) check("estimate", record.estimate.t);
   for (const core::TagDetection& tag : record.detections) check("detection", tag.t);
   if (summary_.pictures > 0 && t < last_.t)
-    throw std::invalid_argument(fmt::format("picture at {} us after one at {} us", t.count(),
-                                            last_.t.count()));
+    throw std::invalid_argument(
+        fmt::format("picture at {} us after one at {} us", t.count(), last_.t.count()));
 }
 
 PhaseCount& Scorer::phase_count(const std::string& course_phase) {
   if (course_phase == "straight") return summary_.straight;
   if (course_phase == "turning") return summary_.turning;
   if (course_phase == "landing") return summary_.landing;
-  throw std::invalid_argument(fmt::format(
-      "course_phase = \"{}\", allowed straight, turning, landing", course_phase));
+  throw std::invalid_argument(
+      fmt::format("course_phase = \"{}\", allowed straight, turning, landing", course_phase));
 }
 
 void Scorer::score_landing(const core::Truth& truth) {
@@ -92,8 +92,7 @@ void Scorer::score_landing(const core::Truth& truth) {
 
 void Scorer::score_estimate(const PictureRecord& record) {
   if (!record.estimate.valid) return;
-  const Eigen::Vector3d estimated_m =
-      record.estimate.p_world_tag_m - record.vehicle.p_world_body_m;
+  const Eigen::Vector3d estimated_m = record.estimate.p_world_tag_m - record.vehicle.p_world_body_m;
   const Eigen::Vector3d true_m =
       record.truth.T_world_tag.translation() - record.truth.uav.p_world_body_m;
   squared_error_sum_m2_ += (estimated_m - true_m).squaredNorm();

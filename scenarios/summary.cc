@@ -76,8 +76,8 @@ std::string to_table(const Summary& s) {
   std::string table = fmt::format("{}, seed {}\n", s.scenario, s.seed);
   table += row("simulated", fmt::format("{:.1f} s in {:.1f} s ({:.2f} x real time)", s.sim_time_s,
                                         s.wall_time_s, s.real_time_factor));
-  table += row("events", fmt::format("{} ({:.0f} k/s), {} lost", s.events,
-                                     s.event_rate_hz / 1000, s.events_lost));
+  table += row("events", fmt::format("{} ({:.0f} k/s), {} lost", s.events, s.event_rate_hz / 1000,
+                                     s.events_lost));
   table += row("tag found", fmt::format("{} of {} pictures ({:.1f} %), {} false", s.detections,
                                         s.pictures, 100 * s.detection_rate, s.false_detections));
   table += row("  straight", s.straight);
@@ -89,9 +89,9 @@ std::string to_table(const Summary& s) {
   if (s.crashed) table += row("crashed", yes_no(true));
   if (s.ugv_collided) table += row("UGV hit an obstacle", yes_no(true));
   for (const core::MissionTransition& step : s.transitions)
-    table += row("mission", fmt::format("{:7.2f} s  {} -> {}: {}", core::seconds(step.t),
-                                        core::to_string(step.from), core::to_string(step.to),
-                                        step.cause));
+    table += row("mission",
+                 fmt::format("{:7.2f} s  {} -> {}: {}", core::seconds(step.t),
+                             core::to_string(step.from), core::to_string(step.to), step.cause));
   table += row("passed", yes_no(s.passed));
   for (const std::string& line : s.failed_criteria) table += row("", line);
   return table;

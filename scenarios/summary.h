@@ -23,10 +23,10 @@ struct Summary {
   double real_time_factor = 0;  ///< simulated seconds a second of wall time
 
   std::int64_t pictures = 0;
-  std::int64_t detections = 0;       ///< pictures whose tag was found where it is
-  double detection_rate = 0;         ///< detections / pictures, 0 without pictures
-  std::int64_t false_detections = 0; ///< every other tag decoded
-  PhaseCount straight;               ///< by the phase of the UGV's course
+  std::int64_t detections = 0;        ///< pictures whose tag was found where it is
+  double detection_rate = 0;          ///< detections / pictures, 0 without pictures
+  std::int64_t false_detections = 0;  ///< every other tag decoded
+  PhaseCount straight;                ///< by the phase of the UGV's course
   PhaseCount turning;
   PhaseCount landing;
 

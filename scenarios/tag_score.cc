@@ -18,8 +18,8 @@ std::optional<std::array<Eigen::Vector2d, 4>> project_tag(const core::CameraMode
                                                           const core::Truth& truth,
                                                           double tag_size_m) {
   const double h_m = 0.5 * tag_size_m;
-  const std::array<Eigen::Vector3d, 4> corners_tag_m{{
-      {-h_m, h_m, 0}, {-h_m, -h_m, 0}, {h_m, -h_m, 0}, {h_m, h_m, 0}}};
+  const std::array<Eigen::Vector3d, 4> corners_tag_m{
+      {{-h_m, h_m, 0}, {-h_m, -h_m, 0}, {h_m, -h_m, 0}, {h_m, h_m, 0}}};
   const Eigen::Isometry3d T_camera_tag = truth.T_world_camera.inverse() * truth.T_world_tag;
   std::array<Eigen::Vector2d, 4> corners_px;
   for (std::size_t i = 0; i < corners_px.size(); ++i) {
@@ -30,8 +30,8 @@ std::optional<std::array<Eigen::Vector2d, 4>> project_tag(const core::CameraMode
   return corners_px;
 }
 
-TagScore score_tags(const core::CameraModel& camera, const core::Truth& truth,
-                    double tag_size_m, std::span<const core::TagDetection> detections) {
+TagScore score_tags(const core::CameraModel& camera, const core::Truth& truth, double tag_size_m,
+                    std::span<const core::TagDetection> detections) {
   const auto truth_px = project_tag(camera, truth, tag_size_m);
   TagScore score;
   for (const core::TagDetection& tag : detections) {

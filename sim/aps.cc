@@ -96,7 +96,8 @@ void ApsSensor::integrate(core::Time t, const core::Image<float>& luminance_lux)
 }
 
 core::ApsFrame ApsSensor::read() {
-  core::ApsFrame frame{begin_, begin_ + exposure_, core::Image<std::uint8_t>(luminance_lux_.size())};
+  core::ApsFrame frame{begin_, begin_ + exposure_,
+                       core::Image<std::uint8_t>(luminance_lux_.size())};
   const double black = config_.black_level * kCodesPerGray;
   const double codes_per_e = (kAdcCodes - 1 - black) / config_.full_well_e;
   const double read_variance = config_.read_noise_e * config_.read_noise_e;

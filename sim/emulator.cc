@@ -28,8 +28,9 @@ std::uint32_t bits_for(std::uint64_t below) {
 void check(const PixelConfig& config, core::Resolution size, double white_lux) {
   core::check_config(config, "pixel");
   if (config.log_linear_below > 0 && config.log_linear_below < std::numbers::e)
-    throw std::invalid_argument(fmt::format("pixel.log_linear_below = {}, allowed 0, or 2.72 to 128",
-                                            config.log_linear_below));
+    throw std::invalid_argument(
+        fmt::format("pixel.log_linear_below = {}, allowed 0, or 2.72 to 128",
+                    core::number_text(config.log_linear_below)));
   core::check_range("size.width_px", size.width_px, 1, kMostSidePx);
   core::check_range("size.height_px", size.height_px, 1, kMostSidePx);
   core::check_range("white_lux", white_lux, 1e-6, 1e9);

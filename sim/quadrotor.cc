@@ -28,13 +28,18 @@ Quadrotor::Quadrotor(const QuadrotorConfig& config, const Scene& scene)
 }
 
 Quadrotor::Thrusts Quadrotor::allocate(double collective_n, const Eigen::Vector3d& torque) const {
-  const auto held = [this](const Eigen::Vector4d& f) {
-    return Eigen::Vector4d(f.cwiseMax(0.0).cwiseMin(config_.max_rotor_thrust_n));
-  };
-  const Eigen::Vector4d wrench(collective_n, torque.x(), torque.y(), torque.z());
-  Eigen::Vector4d thrusts = thrusts_from_wrench_ * wrench;
-  if (held(thrusts) != thrusts)  // heading matters least for staying in the air
-    thrusts = held(thrusts_from_wrench_ * Eigen::Vector4d(wrench[0], wrench[1], wrench[2], 0.0));
+  const double most_n = config_.max_rotor_thrust_n;
+  const Eigen::Vector4d without_yaw =
+      (thrusts_from_wrench_ * Eigen::Vector4d(collective_n, torque.x(), torque.y(), 0.0))
+          .cwiseMax(0.0)
+          .cwiseMin(most_n);
+  const Eigen::Vector4d yaw = thrusts_from_wrench_.col(3) * torque.z();
+  double share = 1.0;  // heading matters least for staying in the air
+  for (int i = 0; i < kRotors; ++i) {
+    const double room_n = yaw[i] > 0 ? most_n - without_yaw[i] : without_yaw[i];
+    if (std::abs(yaw[i]) > room_n) share = std::min(share, room_n / std::abs(yaw[i]));
+  }
+  const Eigen::Vector4d thrusts = without_yaw + share * yaw;
   return {thrusts[0], thrusts[1], thrusts[2], thrusts[3]};
 }
 

@@ -173,7 +173,7 @@ struct ControllerConfig {
   double max_thrust_m_s2 = 18;
   double max_yaw_rate_rad_s = 1.0;
   double dither_tilt_deg = 2.0;            ///< Half-angle of the cone; 0: off.
-  double dither_rate_hz = 3.0;
+  double dither_rate_hz = 0.7;
   double dither_taper_height_m = 0.5;      ///< Below it the cone shrinks in proportion.
 
   template <class Visitor>

@@ -15,9 +15,9 @@ namespace {
 constexpr int kTile_px = 4;
 // A tag that decodes has 8 cells of about 2 px; less than that is no picture.
 constexpr int kLeastWindow_px = 16;
-// A tag cut by the rim can still decode, its lost corners put on the rim: up to
-// 10 px wrong. A whole tag has its white border, a cell wide, between.
-constexpr double kRim_px = 2;
+// A tag whose white border the rim cuts off still decodes, its lost edge put
+// inside the outermost tiles, 10 px wrong and more.
+constexpr double kRim_px = 2 * kTile_px;
 // AprilTag puts the middle of the top left pixel at (0.5, 0.5), core at (0, 0).
 constexpr double kPixelCentre_px = 0.5;
 

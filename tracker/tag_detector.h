@@ -33,9 +33,9 @@ class TagDetector {
   TagDetector& operator=(TagDetector&&) noexcept;
 
   /// All tags of the family in the picture, or in that part of it (clipped to
-  /// the picture and grown to AprilTag's 4-pixel tiles), whatever their id,
-  /// save those cut by the rim of what is searched. Corners count from the whole picture's top left, pixel centres at whole
-  /// numbers.
+  /// the picture and grown to AprilTag's 4-pixel tiles), whatever their id; none
+  /// that comes within 8 px of the rim of what is searched. Corners count from
+  /// the whole picture's top left, pixel centres at whole numbers.
   std::vector<core::TagDetection> detect(const core::Picture& picture,
                                          std::optional<Window> window = {});
 

@@ -51,9 +51,8 @@ TEST(Bus, DropsNothingOverTenThousandQueuedMessages) {
   Bus bus;
   std::int64_t next_us = 0;
   bool in_order = true;
-  bus.subscribe(kVehicleState, [&](const core::VehicleState& state) {
-    in_order &= state.t.count() == next_us++;
-  });
+  bus.subscribe(kVehicleState,
+                [&](const core::VehicleState& state) { in_order &= state.t.count() == next_us++; });
   for (int i = 0; i < kMessages; ++i) bus.publish(kVehicleState, state_at(core::Time(i)));
   EXPECT_EQ(bus.dispatch(), static_cast<std::size_t>(kMessages));
   EXPECT_EQ(next_us, kMessages);
@@ -152,9 +151,7 @@ TEST(Bus, RefusesChannelNamesThatArePatterns) {
   }
 }
 
-TEST(Bus, RefusesAnUrlThatLcmCannotOpen) {
-  EXPECT_THROW(Bus("nosuch://"), std::invalid_argument);
-}
+TEST(Bus, RefusesAnUrlThatLcmCannotOpen) { EXPECT_THROW(Bus("nosuch://"), std::invalid_argument); }
 
 }  // namespace
 }  // namespace nightjar::msg

@@ -126,18 +126,17 @@ TEST(Convert, EventPacketsThatBreakTheirPromiseAreRefused) {
   const auto refused = [](const core::EventPacket& packet) {
     EXPECT_THROW(encode(packet), std::invalid_argument);
   };
-  refused({10us, 20us, {{10us, 0, 0, true}}});                       // begin is open
-  refused({10us, 20us, {{21us, 0, 0, true}}});                       // end is closed
-  refused({10us, 20us, {{12us, 0, 0, true}, {11us, 0, 0, true}}});   // order
+  refused({10us, 20us, {{10us, 0, 0, true}}});                      // begin is open
+  refused({10us, 20us, {{21us, 0, 0, true}}});                      // end is closed
+  refused({10us, 20us, {{12us, 0, 0, true}, {11us, 0, 0, true}}});  // order
   refused({20us, 10us, {}});
-  refused({0us, 2'147'483'648us, {}});                               // 32 bits
+  refused({0us, 2'147'483'648us, {}});  // 32 bits
   refused({kFirst, kLast, {}});
 }
 
 TEST(Convert, PicturesKeepEveryBit) {
   AnyValues any(2);
-  for (const core::Resolution size :
-       {core::Resolution{}, {1, 1}, {0, 7}, {346, 260}, {3, 1000}}) {
+  for (const core::Resolution size : {core::Resolution{}, {1, 1}, {0, 7}, {346, 260}, {3, 1000}}) {
     const core::Picture sent{any.time(), any.image(size)};
     const core::Picture got = round_trip(sent);
     EXPECT_EQ(got.t, sent.t);
@@ -219,8 +218,8 @@ TEST(Convert, MissionTransitionsKeepEveryPhaseAndCause) {
   using enum core::MissionPhase;
   for (const core::MissionPhase from : {search, track, descend, land, touched_down})
     for (const core::MissionPhase to : {search, track, descend, land, touched_down})
-      for (const std::string& cause : {std::string(), std::string("tag lost for 0.5 s, µ"),
-                                       std::string(100'000, 'x')}) {
+      for (const std::string& cause :
+           {std::string(), std::string("tag lost for 0.5 s, µ"), std::string(100'000, 'x')}) {
         const core::MissionTransition got =
             round_trip(core::MissionTransition{kLast, from, to, cause});
         EXPECT_EQ(got.t, kLast);
@@ -266,8 +265,8 @@ TEST(Convert, EveryMessageHoldsItsTimeFirst) {
   estimate.t = state.t = setpoint.t = transition.t = truth.t = t;
   for (const Bytes& bytes :
        {encode(core::EventPacket{t - 10ms, t, {}}), encode(core::Picture{t, {}}),
-        encode(core::ApsFrame{t - 500ms, t, {}}), encode(TagDetections{t, {}}),
-        encode(estimate), encode(state), encode(setpoint), encode(transition), encode(truth)})
+        encode(core::ApsFrame{t - 500ms, t, {}}), encode(TagDetections{t, {}}), encode(estimate),
+        encode(state), encode(setpoint), encode(transition), encode(truth)})
     EXPECT_EQ(message_time(bytes), t);
   EXPECT_THROW(message_time(Bytes(15)), std::invalid_argument);
 }

@@ -48,8 +48,7 @@ TEST(EstimatesHash, ChangesWithTheLastBitOfEveryMember) {
   const auto nudge = [](double& value) {
     value = std::nextafter(value, std::numeric_limits<double>::infinity());
   };
-  std::vector<Change> changes{[](auto& e) { e.t += 1us; },
-                              [](auto& e) { e.valid = false; },
+  std::vector<Change> changes{[](auto& e) { e.t += 1us; }, [](auto& e) { e.valid = false; },
                               [&](auto& e) { nudge(e.heading_rad); },
                               [&](auto& e) { nudge(e.turn_rate_rad_s); },
                               [](auto& e) { e.last_tag += 1us; }};

@@ -18,8 +18,11 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 Scorer scorer() {
-  return Scorer({.scenario = "test", .seed = 7, .camera = test::davis_camera(),
-                 .tag_size_m = test::kTagSize_m, .criteria = {}});
+  return Scorer({.scenario = "test",
+                 .seed = 7,
+                 .camera = test::davis_camera(),
+                 .tag_size_m = test::kTagSize_m,
+                 .criteria = {}});
 }
 
 /// The UAV on the board, `error_m` east of the tag's centre.
@@ -196,8 +199,7 @@ TEST(Scorer, NamesWhatAFailedRunMissed) {
   Scorer s = scorer();
   s.add(blank_record(10ms));
   EXPECT_THAT(s.summary(10ms, 1.0).failed_criteria,
-              ElementsAre("landed = false, wanted true",
-                          "detection_rate = 0, wanted at least 0.74",
+              ElementsAre("landed = false, wanted true", "detection_rate = 0, wanted at least 0.74",
                           HasSubstr("relative_position_rmse_m = none")));
 }
 

@@ -127,6 +127,23 @@ TEST(ApsSensor, a_step_over_an_exposure_counts_only_what_falls_into_it) {
   EXPECT_NEAR(means[1], code(config, 250, 0.01), 0.6);
 }
 
+TEST(ApsSensor, exposures_back_to_back_lose_no_light) {
+  // The same rise of light; the step from 7 to 16 ms belongs to two exposures.
+  ApsConfig config = noiseless();
+  config.exposure_ms = config.interval_ms = 10;
+  config.electrons_per_lux_s = 5000;
+  ApsSensor sensor(config, kSize, 300, 9);
+  std::vector<double> means;
+  for (const int t_ms : {0, 7, 16, 26}) {
+    const core::Image<float> image(kSize, static_cast<float>(10 * t_ms));
+    if (const auto frame = sensor.add(Time(t_ms * 1000), image))
+      means.push_back(statistics(frame->gray).mean);
+  }
+  ASSERT_EQ(means.size(), 2u);
+  EXPECT_NEAR(means[0], code(config, 50, 0.01), 0.6);
+  EXPECT_NEAR(means[1], code(config, 150, 0.01), 0.6);
+}
+
 TEST(ApsSensor, noise_is_what_photons_and_readout_make) {
   ApsConfig config = noiseless();
   config.read_noise_e = 200;

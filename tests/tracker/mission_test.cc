@@ -258,6 +258,16 @@ TEST(Mission, DoesNotTakeSinkingThroughStandingHeightForTouchdown) {
   EXPECT_LT(flight.vehicle.p_world_body_m.z(), MissionConfig{}.stand_height_m);
 }
 
+TEST(Mission, DoesNotTakeHangingBelowItsGoalForTouchdown) {
+  Flight flight;
+  flight.reach(MissionPhase::land);
+  flight.aside_m = {0, 0, -1};  // at standing height at once, the goal still above it
+  flight.fly(0.5);
+  EXPECT_EQ(flight.mission.phase(), MissionPhase::land);
+  flight.fly(1);
+  EXPECT_EQ(flight.mission.phase(), MissionPhase::touched_down);
+}
+
 TEST(Mission, HoldsWhereItBeganBeforeTheFirstTag) {
   Flight flight;
   flight.fly(1);

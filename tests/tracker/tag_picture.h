@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
@@ -49,22 +50,35 @@ inline core::Picture tag_picture(const core::CameraModel& camera,
   plane << T_camera_tag.linear().leftCols<2>(), T_camera_tag.translation();
   Eigen::Matrix3d pixel;
   pixel << camera.fx_px, 0, camera.cx_px, 0, camera.fy_px, camera.cy_px, 0, 0, 1;
-  Eigen::Matrix3d fine;  // pixel -> sample, both with centres at whole numbers
+
+  cv::Mat gray(camera.size.height_px, camera.size.width_px, CV_8U, cv::Scalar(128));
+  cv::Rect part(0, 0, gray.cols, gray.rows);  // only what the tag covers
+  Eigen::AlignedBox2d box;
+  for (const double x_m : {-kSize_m / 2, kSize_m / 2})
+    for (const double y_m : {-kSize_m / 2, kSize_m / 2})
+      box.extend((pixel * plane * Eigen::Vector3d(x_m, y_m, 1)).hnormalized());
+  part &= cv::Rect(static_cast<int>(box.min().x()) - 2, static_cast<int>(box.min().y()) - 2,
+                   static_cast<int>(box.sizes().x()) + 5, static_cast<int>(box.sizes().y()) + 5);
+  Eigen::Matrix3d fine;  // pixel -> sample of the part, both with centres at whole numbers
   const double shift = (oversampling - 1) / 2.0;
-  fine << oversampling, 0, shift, 0, oversampling, shift, 0, 0, 1;
+  fine << oversampling, 0, shift - oversampling * part.x,  //
+      0, oversampling, shift - oversampling * part.y,      //
+      0, 0, 1;
   const Eigen::Matrix3d H = fine * pixel * plane * tag_of_texture;
   cv::Mat warp(3, 3, CV_64F);
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) warp.at<double>(r, c) = H(r, c);
 
-  const cv::Size size(camera.size.width_px, camera.size.height_px);
-  cv::Mat samples(size * oversampling, CV_8U, cv::Scalar(128)), gray;
-  cv::warpPerspective(source, samples, warp, samples.size(), cv::INTER_NEAREST,
-                      cv::BORDER_TRANSPARENT);
-  cv::resize(samples, gray, size, 0, 0, cv::INTER_AREA);
+  if (!part.empty()) {
+    cv::Mat samples(part.size() * oversampling, CV_8U, cv::Scalar(128));
+    cv::warpPerspective(source, samples, warp, samples.size(), cv::INTER_NEAREST,
+                        cv::BORDER_TRANSPARENT);
+    cv::resize(samples, gray(part), part.size(), 0, 0, cv::INTER_AREA);
+  }
 
   core::Picture picture{.t = {}, .gray = core::Image<std::uint8_t>(camera.size)};
-  std::copy(gray.begin<std::uint8_t>(), gray.end<std::uint8_t>(), picture.gray.pixels().begin());
+  std::copy(gray.begin<std::uint8_t>(), gray.end<std::uint8_t>(),
+            picture.gray.pixels().begin());
   return picture;
 }
 

@@ -51,7 +51,6 @@ class World {
     add_noise(picture, 12, 0.02, random_);
     picture.t = plant.state.t;
     TrackerOutput output = tracker.process(picture);
-    if(getenv("DBG"))printf("%.2f det %zu fix %d est %d whole %d pos %.2f %.2f %.2f tgt %.2f %.2f h %.2f off %.3f err %.3f tiltq %.3f\n",core::seconds(picture.t),output.detections.size(),(int)output.fix,output.estimate.valid,output.whole_picture,plant.state.p_world_body_m.x(),plant.state.p_world_body_m.y(),plant.state.p_world_body_m.z(),target[0],target[1],target[3],offset_m(),(output.estimate.p_world_tag_m - target.head<3>()).norm(),output.setpoint.q_world_body.z());
     for (const auto& transition : output.transitions) log.push_back(transition);
     error_m = (output.estimate.p_world_tag_m - target.head<3>()).norm();
     plant.board_z_m = over_board() ? kBoard_m + MissionConfig{}.stand_height_m : 0;
@@ -110,12 +109,12 @@ TEST(Tracker, TracksATurningTargetAndLandsOnIt) {
   ASSERT_FALSE(world.log.empty());
   EXPECT_EQ(world.log.back().to, MissionPhase::touched_down) << world.log.back().cause;
   EXPECT_EQ(world.log.size(), 4u);  // no detours
-  // A fix is good to 1 mm across and 1 cm along, its delay is known exactly;
-  // 2 s of coasting over the last 40 cm at 1 % of 0.5 m/s give 1 cm.
+  // A fix is good to 1 mm across and 1 cm along; 0.8 s of coasting below 35 cm
+  // adds up to 15 mm with these walks (100 runs of the filter alone).
   EXPECT_LT(worst_estimate_m, 0.03);
-  // The estimate, the controller's 4 cm on a turning target, half a second of
-  // fall; the mission asks for 10 cm.
-  EXPECT_LT(world.offset_m(), 0.06);
+  // The estimate, and the 2 cm that drag pushes off a course that turns; the
+  // mission asks for 10 cm.
+  EXPECT_LT(world.offset_m(), 0.05);
   EXPECT_GT(windows, 0.6 * pictures);
 }
 

@@ -1,1 +1,0 @@
-// until the folder has a real source

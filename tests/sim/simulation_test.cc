@@ -1,0 +1,90 @@
+#include "sim/simulation.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/sim_scene.h"
+
+namespace nightjar::sim {
+namespace {
+
+using namespace std::chrono_literals;
+
+core::AttitudeSetpoint hover() {
+  core::AttitudeSetpoint setpoint;
+  setpoint.thrust_m_s2 = 9.81;
+  return setpoint;
+}
+
+std::unique_ptr<Simulation> make(std::uint64_t seed, RendererConfig renderer = {}) {
+  WorldConfig world;
+  world.renderer = renderer;
+  world.ugv.course = {{-5, -3, 0.4, CoursePhase::straight}, {5, -3, 0.4, CoursePhase::straight}};
+  return std::make_unique<Simulation>(world, CameraConfig{}, SensorConfig{}, test::arena(), 5.0,
+                                      seed);
+}
+
+TEST(Simulation, PacketsFollowEachOtherWithoutGapAndHoldTheirEvents) {
+  const auto simulation = make(1);
+  core::Time end{};
+  for (int i = 0; i < 5; ++i) {
+    const SimulationStep step = simulation->advance(hover());
+    EXPECT_EQ(step.packet.begin, end);
+    EXPECT_EQ(step.packet.end, end + 10ms);
+    EXPECT_EQ(step.truth.t, step.packet.end);
+    EXPECT_EQ(step.vehicle.t, step.packet.end);
+    ASSERT_FALSE(step.packet.events.empty());
+    EXPECT_GT(step.packet.events.front().t, step.packet.begin);
+    EXPECT_LE(step.packet.events.back().t, step.packet.end);
+    EXPECT_TRUE(std::is_sorted(step.packet.events.begin(), step.packet.events.end(),
+                               [](const auto& a, const auto& b) { return a.t < b.t; }));
+    end = step.packet.end;
+  }
+}
+
+TEST(Simulation, SameSeedSameBits) {
+  const auto a = make(3), b = make(3), other = make(4);
+  for (int i = 0; i < 3; ++i) {
+    const SimulationStep from_a = a->advance(hover()), from_b = b->advance(hover());
+    EXPECT_EQ(from_a.packet.events, from_b.packet.events);
+    EXPECT_EQ(from_a.vehicle.p_world_body_m, from_b.vehicle.p_world_body_m);
+    EXPECT_NE(from_a.packet.events, other->advance(hover()).packet.events);
+  }
+}
+
+TEST(Simulation, ApsFramesTakeTheExposureThatTheLightNeeds) {
+  const auto simulation = make(1);
+  std::vector<core::ApsFrame> frames;
+  for (int i = 0; i < 55; ++i)
+    for (auto& frame : simulation->advance(hover()).frames) frames.push_back(frame);
+  ASSERT_EQ(frames.size(), 1u);  // 0.5 s at 5 lux, by the ESI paper
+  EXPECT_EQ(frames[0].exposure_end - frames[0].exposure_begin, 500ms);
+}
+
+TEST(Simulation, DrawsMoreOftenWhenMoreMoves) {
+  RendererConfig coarse;
+  coarse.max_motion_px = 4.0;
+  const auto fine = make(1), rough = make(1, coarse);
+  core::AttitudeSetpoint tilting = hover();
+  tilting.q_world_body = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY());
+  for (int i = 0; i < 30; ++i) {
+    fine->advance(tilting);
+    rough->advance(tilting);
+  }
+  EXPECT_GT(fine->renders(), rough->renders());
+  EXPECT_GE(rough->renders(), 60u);  // 5 ms at most between two
+}
+
+TEST(Simulation, PacketIntervalMustBeWholePhysicsSteps) {
+  CameraConfig camera;
+  camera.packet_interval_ms = 10.5;
+  try {
+    Simulation simulation(WorldConfig{}, camera, SensorConfig{}, test::arena(), 5.0, 1);
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& e) {
+    EXPECT_THAT(e.what(), testing::HasSubstr("camera.packet_interval_ms = 10.5"));
+  }
+}
+
+}  // namespace
+}  // namespace nightjar::sim
