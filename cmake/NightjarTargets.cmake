@@ -8,8 +8,9 @@ if(NIGHTJAR_SANITIZE)
                                                     -fno-sanitize-recover=all)
   target_link_options(nightjar_options INTERFACE -fsanitize=address,undefined)
 endif()
-# One build gives the same bits wherever it runs: no contraction into
-# multiply-adds that only some processors have.
+# No contraction into multiply-adds, so that what we compile gives the same bits
+# whichever instruction set is chosen at run time. The C library and llvmpipe choose
+# for themselves: results are the same on one kind of machine.
 target_compile_options(nightjar_options INTERFACE -ffp-contract=off)
 
 # nightjar_library(NAME [PUBLIC libs...] [PRIVATE libs...]): every .cc of the

@@ -10,9 +10,12 @@
 #include "msg/bus.h"
 #include "msg/log_writer.h"
 #include "scenarios/estimates_csv.h"
-#include "scenarios/nodes.h"
 #include "scenarios/output_folder.h"
+#include "scenarios/reconstruction_node.h"
+#include "scenarios/record_node.h"
 #include "scenarios/scorer.h"
+#include "scenarios/simulation_node.h"
+#include "scenarios/tracker_node.h"
 #include "scenarios/video.h"
 #include "sim/simulation.h"
 
@@ -49,8 +52,8 @@ class Run {
 
   const Scenario& scenario_;
   const RunOptions& options_;
+  OutputFolder folder_;  // first: a run that cannot begin leaves no earlier one's results
   sim::Simulation simulation_;
-  OutputFolder folder_;
   msg::Bus bus_;
   Scorer scorer_;
   EstimatesCsv csv_;
@@ -67,15 +70,15 @@ class Run {
 
 Scorer::Setup scorer_setup(const Scenario& scenario, const core::CameraModel& camera) {
   return {scenario.name, static_cast<std::uint64_t>(scenario.seed), camera,
-          scenario.tracker.detector.tag_size_m, scenario.pass};
+          scenario.tag, scenario.pass};
 }
 
 Run::Run(const Scenario& scenario, const RunOptions& options)
     : scenario_(scenario),
       options_(options),
+      folder_(options.out),
       simulation_(scenario.world, scenario.camera, scenario.sensor, scenario.model,
                   scenario.illuminance_lux, static_cast<std::uint64_t>(scenario.seed)),
-      folder_(options.out),
       scorer_(scorer_setup(scenario, simulation_.world().camera_model())),
       csv_(folder_),
       log_(folder_.path(kLogFile)),

@@ -18,7 +18,8 @@ struct RunOptions {
   std::function<void(double sim_time_s, double end_s, const std::string& phase)> on_progress;
 };
 
-/// Flies the scenario in lock-step and leaves its results in options.out.
+/// Flies the scenario in lock-step and leaves its results in options.out, which is
+/// cleared of an earlier run's before anything else.
 ///
 /// While the world advances by packet k + 1 the picture of packet k is searched for
 /// the tag, on a thread of its own; the setpoint that follows from it is flown from

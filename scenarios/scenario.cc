@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "core/config_check.h"
+#include "scenarios/consistency.h"
 #include "scenarios/yaml_reader.h"
 #include "scenarios/yaml_writer.h"
 
@@ -27,7 +28,7 @@ bool is_file(const fs::path& path) {
 
 std::string no_model(const std::string& model) {
   return model.empty() ? "model is not set, expected an MJCF file"
-                       : fmt::format("model = {}, no such file", shown(model));
+                       : fmt::format("model = {}, no such file", shown_file(model));
 }
 
 }  // namespace
@@ -35,7 +36,7 @@ std::string no_model(const std::string& model) {
 Scenario load(const fs::path& path) { return parse(read_scenario_text(path), path); }
 
 Scenario parse(const std::string& text, const fs::path& path) {
-  const std::string file = shown(path.string());
+  const std::string file = shown_file(path.string());
   const YamlNode root = parse_yaml(text, file);
   Scenario scenario;
   YamlReader reader(root, file, "");
@@ -59,6 +60,7 @@ void check(const Scenario& scenario) {
   } catch (const std::invalid_argument& error) {
     throw ScenarioError(error.what());
   }
+  check_consistency(scenario);
   if (!is_file(scenario.model)) throw ScenarioError(no_model(scenario.model));
 }
 
@@ -68,7 +70,7 @@ void save(const Scenario& scenario, const fs::path& path) {
   std::ofstream stream(path, std::ios::binary);
   stream << to_yaml(copy);
   stream.close();
-  if (!stream) throw ScenarioError(shown(path.string()) + ": cannot be written");
+  if (!stream) throw ScenarioError(shown_file(path.string()) + ": cannot be written");
 }
 
 }  // namespace nightjar::scenarios

@@ -7,6 +7,7 @@
 #include "esi/config.h"
 #include "scenarios/pass_criteria_config.h"
 #include "scenarios/scenario_error.h"
+#include "scenarios/tag_config.h"
 #include "sim/config.h"
 #include "sim/sensor_config.h"
 #include "tracker/config.h"
@@ -24,6 +25,7 @@ struct Scenario {
   /// load(): relative to the working directory.
   std::string model;
   sim::WorldConfig world;
+  TagConfig tag;
   sim::CameraConfig camera;
   sim::SensorConfig sensor;
   esi::EsiConfig esi;
@@ -38,6 +40,7 @@ struct Scenario {
     v.field("illuminance_lux", illuminance_lux, 0.1, 100000.0);
     v.field("model", model);
     v.section("world", world);
+    v.section("tag", tag);
     v.section("camera", camera);
     v.section("sensor", sensor);
     v.section("esi", esi);
@@ -54,7 +57,8 @@ Scenario load(const std::filesystem::path& path);
 /// As load(), from `text` that stands in (or would stand in) the file `path`.
 Scenario parse(const std::string& text, const std::filesystem::path& path);
 
-/// Throws ScenarioError unless every value is in range and the model exists.
+/// Throws ScenarioError unless every value is in range, all fit each other
+/// (check_consistency) and the model exists.
 void check(const Scenario& scenario);
 
 /// Writes every value, with its range as a comment, so that load(path) gives the

@@ -6,10 +6,13 @@ namespace nightjar::scenarios {
 
 std::string shown(const std::string& text) {
   constexpr std::size_t kLongest = 60;
-  std::string out = text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+  return shown_file(text.size() <= kLongest ? text : text.substr(0, kLongest) + "...");
+}
+
+std::string shown_file(std::string path) {
   const auto is_control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-  std::replace_if(out.begin(), out.end(), is_control, '?');
-  return out;
+  std::replace_if(path.begin(), path.end(), is_control, '?');
+  return path;
 }
 
 }  // namespace nightjar::scenarios

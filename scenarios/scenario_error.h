@@ -15,4 +15,7 @@ class ScenarioError : public std::invalid_argument {
 /// `text` fit for one line of a message: control characters replaced, the end cut.
 std::string shown(const std::string& text);
 
+/// As shown(), but whole: a file's own name stands at the end of its path.
+std::string shown_file(std::string path);
+
 }  // namespace nightjar::scenarios

@@ -18,8 +18,7 @@ Scorer::Scorer(Setup setup) : setup_(std::move(setup)) {
 
 void Scorer::add(const PictureRecord& record) {
   check_times(record);
-  const TagScore tags =
-      score_tags(setup_.camera, record.truth, setup_.tag_size_m, record.detections);
+  const TagScore tags = score_tags(setup_.camera, record.truth, setup_.tag, record.detections);
   PhaseCount& phase = phase_count(record.truth.course_phase);
   ++summary_.pictures;
   ++phase.pictures;

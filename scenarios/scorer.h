@@ -9,6 +9,7 @@
 #include "scenarios/pass_criteria_config.h"
 #include "scenarios/picture_record.h"
 #include "scenarios/summary.h"
+#include "scenarios/tag_config.h"
 
 namespace nightjar::scenarios {
 
@@ -19,7 +20,7 @@ class Scorer {
     std::string scenario;
     std::uint64_t seed = 0;
     core::CameraModel camera;
-    double tag_size_m = 0.24;  ///< side of the tag's black square
+    TagConfig tag;  ///< as printed
     PassCriteria criteria;
   };
 

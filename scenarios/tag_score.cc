@@ -3,7 +3,6 @@
 namespace nightjar::scenarios {
 namespace {
 
-constexpr int kTagId = 0;
 constexpr double kMaxCornerError_px = 5.0;
 
 bool corners_agree(const core::TagDetection& tag, const std::array<Eigen::Vector2d, 4>& truth_px) {
@@ -30,12 +29,12 @@ std::optional<std::array<Eigen::Vector2d, 4>> project_tag(const core::CameraMode
   return corners_px;
 }
 
-TagScore score_tags(const core::CameraModel& camera, const core::Truth& truth, double tag_size_m,
-                    std::span<const core::TagDetection> detections) {
-  const auto truth_px = project_tag(camera, truth, tag_size_m);
+TagScore score_tags(const core::CameraModel& camera, const core::Truth& truth,
+                    const TagConfig& printed, std::span<const core::TagDetection> detections) {
+  const auto truth_px = project_tag(camera, truth, printed.size_m);
   TagScore score;
   for (const core::TagDetection& tag : detections) {
-    const bool right = tag.id == kTagId && truth_px && corners_agree(tag, *truth_px);
+    const bool right = tag.id == printed.id && truth_px && corners_agree(tag, *truth_px);
     if (right && !score.detected)
       score.detected = true;
     else

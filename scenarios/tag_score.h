@@ -7,6 +7,7 @@
 #include "core/camera_model.h"
 #include "core/state.h"
 #include "core/truth.h"
+#include "scenarios/tag_config.h"
 
 namespace nightjar::scenarios {
 
@@ -20,11 +21,11 @@ std::optional<std::array<Eigen::Vector2d, 4>> project_tag(const core::CameraMode
 
 /// How the tags decoded in one picture compare with the truth.
 struct TagScore {
-  bool detected = false;     ///< tag 0 was found with every corner within 5 px
-  int false_detections = 0;  ///< everything else decoded, a second tag 0 among it
+  bool detected = false;     ///< the printed tag was found, every corner within 5 px
+  int false_detections = 0;  ///< everything else decoded, a second such tag among it
 };
 
-TagScore score_tags(const core::CameraModel& camera, const core::Truth& truth, double tag_size_m,
-                    std::span<const core::TagDetection> detections);
+TagScore score_tags(const core::CameraModel& camera, const core::Truth& truth,
+                    const TagConfig& printed, std::span<const core::TagDetection> detections);
 
 }  // namespace nightjar::scenarios

@@ -52,6 +52,12 @@ std::string caption(const PictureRecord& record) {
                      to_string(record.mission_phase), apart.z(), apart.head<2>().norm());
 }
 
+/// 0 when the file cannot be read.
+int frames_in(const std::string& path) {
+  cv::VideoCapture video(path);
+  return video.isOpened() ? cvRound(video.get(cv::CAP_PROP_FRAME_COUNT)) : 0;
+}
+
 }  // namespace
 
 struct Video::Impl {
@@ -63,6 +69,8 @@ struct Video::Impl {
   core::Image<std::uint8_t> picture;
   std::vector<core::Event> events;      // since the last video frame
   Pane chase;
+  core::Time next_due;
+  int frames_written;
 
   cv::Mat compose(const PictureRecord& record) const;
 };
@@ -70,7 +78,7 @@ struct Video::Impl {
 Video::Video(msg::Bus& bus, OutputFolder& folder, const core::CameraModel& camera)
     : impl_(new Impl{folder, camera.size,
                      {kPaneScale * camera.size.width_px, kPaneScale * camera.size.height_px},
-                     {}, {}, {}, {}, {}}) {
+                     {}, {}, {}, {}, {}, kFrameInterval, 0}) {
   impl_->chase = Pane(impl_->pane);
   const std::string path = folder.part(kVideoFile).string();
   const cv::Size size(2 * impl_->pane.width_px, 2 * impl_->pane.height_px + kCaptionHeight);
@@ -89,10 +97,8 @@ Video::Video(msg::Bus& bus, OutputFolder& folder, const core::CameraModel& camer
 
 Video::~Video() = default;
 
-bool Video::is_due(core::Time t) { return t % kFrameInterval == core::Time(0); }
-
 void Video::draw_chase(sim::World& world) {
-  if (is_due(world.now())) world.draw_chase(impl_->chase);
+  if (world.now() >= impl_->next_due) world.draw_chase(impl_->chase);
 }
 
 cv::Mat Video::Impl::compose(const PictureRecord& record) const {
@@ -102,7 +108,7 @@ cv::Mat Video::Impl::compose(const PictureRecord& record) const {
   cv::Mat chase_pane = bgr(chase);
   for (const core::TagDetection& tag : record.detections) outline(picture_pane, tag);
   write(frame_pane, "frame camera (APS)", {10, 24});
-  write(event_view, "events, 40 ms", {10, 24});
+  write(event_view, "events since the last frame", {10, 24});
   write(picture_pane, "ESI picture and tag", {10, 24});
   write(chase_pane, "outside view (lit for the viewer)", {10, 24});
 
@@ -117,13 +123,23 @@ cv::Mat Video::Impl::compose(const PictureRecord& record) const {
 }
 
 void Video::add(const PictureRecord& record) {
-  if (!is_due(record.truth.t)) return;
-  impl_->writer.write(impl_->compose(record));
+  if (record.truth.t < impl_->next_due) return;
+  const cv::Mat frame = impl_->compose(record);
+  for (; impl_->next_due <= record.truth.t; impl_->next_due += kFrameInterval) {
+    impl_->writer.write(frame);
+    ++impl_->frames_written;
+  }
   impl_->events.clear();
 }
 
 void Video::finish() {
   impl_->writer.release();
+  // The writer itself says nothing of a full disk or a codec that gives up.
+  const std::string path = impl_->folder.part(kVideoFile).string();
+  const int readable = impl_->frames_written > 0 ? frames_in(path) : 0;
+  if (readable == 0 || readable != impl_->frames_written)
+    throw std::runtime_error(fmt::format("{}: {} frames can be read of {} written", path, readable,
+                                         impl_->frames_written));
   impl_->folder.complete(kVideoFile);
 }
 

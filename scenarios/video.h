@@ -19,16 +19,17 @@ class Video {
   Video(msg::Bus& bus, OutputFolder& folder, const core::CameraModel& camera);
   ~Video();
 
-  /// Whether the picture at `t` becomes a frame of the video.
-  static bool is_due(core::Time t);
-
   /// Draws the view from outside for the frame at the world's time, if one is due.
+  /// Comes after add() of all earlier pictures.
   void draw_chase(sim::World& world);
 
-  /// Adds the frame of this picture, if one is due; its messages came before.
+  /// Brings the video up to the time of this picture, whose messages came before: a
+  /// frame for every 40 ms that have passed, so that it runs in real time whatever
+  /// the interval between pictures is.
   void add(const PictureRecord& record);
 
-  /// Completes the file.
+  /// Completes the file. Throws std::runtime_error unless it reads back with every
+  /// frame that was added, one at least.
   void finish();
 
  private:

@@ -146,7 +146,7 @@ YamlNode parse_yaml(const std::string& text, const std::string& file) {
 }
 
 std::string read_scenario_text(const std::filesystem::path& path) {
-  const std::string file = shown(path.string());
+  const std::string file = shown_file(path.string());
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) throw ScenarioError(file + ": no such file");

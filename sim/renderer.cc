@@ -5,6 +5,7 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <cmath>
 #include <stdexcept>
 
@@ -20,6 +21,10 @@ constexpr int kChannels = 4;  // OSMesa draws RGBA
 constexpr float kRed = 0.2126f, kGreen = 0.7152f, kBlue = 0.0722f;
 
 OSMesaContext create_context() {
+  // llvmpipe filters 8-bit textures in 8-bit arithmetic unless told otherwise, and
+  // reads this before its first context: without it a drawn float picture has some
+  // 200 different values, with it as many as pixels.
+  setenv("GALLIVM_PERF", "no_aos_sampling", 1);
   const std::array<int, 5> attributes = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 24, 0};
   OSMesaContext context = OSMesaCreateContextAttribs(attributes.data(), nullptr);
   if (context == nullptr)

@@ -16,12 +16,30 @@ Eigen::Isometry3d isometry(const mjtNum* position, const mjtNum* row_major_3x3) 
   return T;
 }
 
+/// MuJoCo's own handlers write to the terminal and to MUJOCO_LOG.TXT, and after an
+/// error they wait for a key.
+void install_handlers() {
+  mju_user_error = [](const char* text) {
+    throw std::runtime_error(fmt::format("MuJoCo: {}", text));
+  };
+  mju_user_warning = [](const char*) {};  // counted in mjData::warning, see check_warnings()
+}
+
+/// `before_s`: when the step began; MuJoCo sets its clock back when it diverges.
+void check_warnings(const mjData& data, double before_s) {
+  for (int i = 0; i < mjNWARNING; ++i)
+    if (data.warning[i].number > 0)
+      throw std::runtime_error(fmt::format("MuJoCo: after {:.6f} s: {}", before_s,
+                                           mju_warningText(i, data.warning[i].lastinfo)));
+}
+
 }  // namespace
 
 void Scene::DeleteModel::operator()(mjModel_* m) const { mj_deleteModel(m); }
 void Scene::DeleteData::operator()(mjData_* d) const { mj_deleteData(d); }
 
 Scene::Scene(const std::filesystem::path& model_file) : file_(model_file) {
+  install_handlers();
   std::array<char, 500> error{};
   model_.reset(mj_loadXML(model_file.c_str(), nullptr, error.data(), error.size()));
   if (!model_) {
@@ -82,6 +100,10 @@ void Scene::place(const std::string& free_joint, const Eigen::Isometry3d& T) {
 
 void Scene::settle() { mj_forward(model_.get(), data_.get()); }
 
-void Scene::step() { mj_step(model_.get(), data_.get()); }
+void Scene::step() {
+  const double before_s = data_->time;
+  mj_step(model_.get(), data_.get());
+  check_warnings(*data_, before_s);
+}
 
 }  // namespace nightjar::sim

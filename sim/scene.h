@@ -39,7 +39,9 @@ class Scene {
   void place(const std::string& free_joint, const Eigen::Isometry3d& T_world_body);
   /// Brings all that derives from the state up to date.
   void settle();
-  /// One step of the physics.
+  /// One step of the physics. Throws std::runtime_error, naming the simulated time,
+  /// when MuJoCo has warned since the scene was made: of numbers that are not finite, of
+  /// contacts or geoms left out for want of room.
   void step();
 
  private:

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -46,6 +47,8 @@ World::World(const WorldConfig& config, const CameraConfig& camera,
       tag_site_(scene_.id(mjOBJ_SITE, "tag")),
       board_geom_(scene_.id(mjOBJ_GEOM, "board")),
       ugv_body_(ugv_.body()),
+      foot_geoms_{scene_.id(mjOBJ_GEOM, "foot_1"), scene_.id(mjOBJ_GEOM, "foot_2"),
+                  scene_.id(mjOBJ_GEOM, "foot_3"), scene_.id(mjOBJ_GEOM, "foot_4")},
       camera_model_(core::CameraModel::from_fovy({camera.width_px, camera.height_px},
                                                  camera.fovy_deg * std::numbers::pi / 180.0)),
       renderer_(scene_, camera_model_.size, config.renderer.supersampling),
@@ -80,6 +83,10 @@ void World::step() {
   note_contacts();
 }
 
+bool World::is_foot(int geom) const {
+  return std::find(foot_geoms_.begin(), foot_geoms_.end(), geom) != foot_geoms_.end();
+}
+
 void World::note_contacts() {
   const mjModel& model = *scene_.model();
   const mjData& data = *scene_.data();
@@ -90,10 +97,11 @@ void World::note_contacts() {
     const int root2 = model.body_rootid[model.geom_bodyid[g2]];
     const bool uav = root1 == quadrotor_.body() || root2 == quadrotor_.body();
     const bool ugv = root1 == ugv_body_ || root2 == ugv_body_;
-    const bool board = g1 == board_geom_ || g2 == board_geom_;
+    const bool foot_on_board =
+        (is_foot(g1) && g2 == board_geom_) || (is_foot(g2) && g1 == board_geom_);
     const bool floor = model.geom_type[g1] == mjGEOM_PLANE || model.geom_type[g2] == mjGEOM_PLANE;
-    if (uav && board) on_board_ = true;
-    if (uav && !board) crashed_ = true;
+    if (foot_on_board) on_board_ = true;
+    if (uav && !foot_on_board) crashed_ = true;
     if (ugv && !uav && !floor) ugv_collided_ = true;
   }
 }

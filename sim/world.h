@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 
@@ -55,6 +56,8 @@ class World {
  private:
   Eigen::Isometry3d T_world_camera() const;
   void place_vehicles(const WorldConfig& config);
+  bool is_foot(int geom) const;
+  /// On the board is a foot on the board; whatever else the UAV touches is a crash.
   void note_contacts();
 
   Scene scene_;
@@ -62,6 +65,7 @@ class World {
   Autopilot autopilot_;
   Ugv ugv_;
   int camera_, tag_site_, board_geom_, ugv_body_;
+  std::array<int, 4> foot_geoms_;
   core::CameraModel camera_model_;
   Renderer renderer_;
   core::Time time_step_;

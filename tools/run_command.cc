@@ -39,7 +39,7 @@ Examples:
   nightjar run scenarios/smoke.yaml --out out/smoke --json --quiet | jq .detection_rate
 
 Exit codes: 0 the scenario's pass criteria hold, 1 they do not, 2 bad input,
-130 interrupted. DIR holds a whole run exactly when it holds summary.json.)";
+3 our own fault or the disk's, 130 interrupted. DIR holds a whole run exactly when it holds summary.json.)";
 
 void declare(CLI::App& command, Arguments& arguments) {
   command.add_option("SCENARIO", arguments.scenario, "the YAML file that describes the run")

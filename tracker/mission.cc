@@ -40,6 +40,7 @@ struct Mission::Relation {
       : t(vehicle.t), valid(target.valid), tag_age_s(core::seconds(vehicle.t - target.last_tag)) {
     const Eigen::Vector3d p = vehicle.p_world_body_m - target.p_world_tag_m;
     const Eigen::Vector3d v = vehicle.v_world_body_m_s - target.v_world_tag_m_s;
+    vehicle_z_m = vehicle.p_world_body_m.z();
     height_m = p.z();
     climb_m_s = v.z();
     error_m = p.head<2>().norm();
@@ -49,7 +50,8 @@ struct Mission::Relation {
   core::Time t;
   bool valid;
   double tag_age_s;
-  double height_m;   // vertical
+  double vehicle_z_m;
+  double height_m;   // above the tag
   double climb_m_s;
   double error_m;    // horizontal
   double drift_m_s;
@@ -155,6 +157,8 @@ bool Mission::held(bool condition, const Relation& now, double hold_s) {
 void Mission::go(const Relation& now, MissionPhase to, std::string cause) {
   transitions_.push_back({.t = now.t, .from = phase_, .to = to, .cause = std::move(cause)});
   if (phase_ == MissionPhase::search) goal_height_m_ = now.height_m;
+  // A goal that sank while landing must not pull the vehicle down once it is searching.
+  if (to == MissionPhase::search) search_z_m_ = std::max(search_z_m_, now.vehicle_z_m);
   spiral_rad_ = 0;
   phase_ = to;
   phase_begun_ = now.t;

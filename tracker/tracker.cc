@@ -16,6 +16,19 @@ constexpr core::Time kHistory = std::chrono::milliseconds(500);
 // The white border widens the black square by 10 cells to 8.
 constexpr double kBorder = 1.25;
 
+/// The detection with each side of the square moved outwards by `inset_px`.
+core::TagDetection widened(core::TagDetection tag, double inset_px) {
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
+  double perimeter_px = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    centre += 0.25 * tag.corner_px[i];
+    perimeter_px += (tag.corner_px[(i + 1) % 4] - tag.corner_px[i]).norm();
+  }
+  const double scale = 1.0 + 8.0 * inset_px / perimeter_px;  // two insets a side of a quarter
+  for (Eigen::Vector2d& corner : tag.corner_px) corner = centre + scale * (corner - centre);
+  return tag;
+}
+
 core::Time milliseconds(double ms) { return core::from_seconds(ms * 1e-3); }
 
 TrackerConfig checked(const TrackerConfig& config) {
@@ -102,7 +115,8 @@ FixResult Tracker::fuse(const std::vector<core::TagDetection>& detections, core:
   std::vector<TagFix> alternatives;
   for (const core::TagDetection& detection : detections) {
     if (detection.id != config_.detector.tag_id) continue;
-    for (const TagPoseSolution& pose : tag_poses(detection, camera_, tag_size_m))
+    const core::TagDetection tag = widened(detection, config_.measurement.corner_inset_px);
+    for (const TagPoseSolution& pose : tag_poses(tag, camera_, tag_size_m))
       if (const auto fix = tag_fix(t, pose, T_world_camera, camera_, tag_size_m,
                                    config_.measurement))
         alternatives.push_back(*fix);

@@ -84,7 +84,7 @@ TEST(Esi, ClampHoldsAHotPixelAndAnswersAtOnceWhenItTurns) {
   esi.process(hot);
   EXPECT_EQ(gray_at(esi, 5, 5, 1s), 255);
   esi.process(std::vector<core::Event>{{1001ms, 5, 5, false}});
-  EXPECT_EQ(gray_at(esi, 5, 5, 1001ms), gray_of((1.0 - 0.15) * 0.999));
+  EXPECT_EQ(gray_at(esi, 5, 5, 1001ms), gray_of((1.0 - 0.2) * 0.999));
 }
 
 TEST(Esi, AgreesWithTheListingWithinAGreyLevel) {
@@ -135,7 +135,7 @@ TEST(Esi, DecayRemovesTheGhostWhereADiscStarted) {
   with_ghost.process(events);
   without.process(events);
   EXPECT_GT(gray_at(with_ghost, 2, 5, 6s), gray_of(0.85));
-  EXPECT_NEAR(gray_at(without, 2, 5, 6s), gray_of(0.0), gray_of(0.15) - gray_of(0.0));
+  EXPECT_NEAR(gray_at(without, 2, 5, 6s), gray_of(0.0), gray_of(0.2) - gray_of(0.0));
 }
 
 TEST(Esi, RefusesAConfigOutOfRange) {

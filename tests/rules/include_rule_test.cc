@@ -45,6 +45,12 @@ TEST(IncludeRuleTest, EverySourceIncludesOnlyWhatItsFolderMay) {
   EXPECT_THAT(violations(includes), IsEmpty());
 }
 
+TEST(IncludeRuleTest, NoNodeUnderTestListensToTheTruth) {
+  for (const char* node : {"tracker_node.cc", "reconstruction_node.cc"})  // there to be checked
+    EXPECT_TRUE(fs::exists(fs::path(NIGHTJAR_SOURCE_DIR) / "scenarios" / node)) << node;
+  EXPECT_THAT(truth_listeners(NIGHTJAR_SOURCE_DIR), IsEmpty());
+}
+
 TEST_F(IncludeCheckerTest, NamesTheFileAndTheLine) {
   write("core/event.h", "#pragma once\n\n#include <vector>\n  # include \"msg/bus.h\"  // why\n");
   EXPECT_THAT(violations(read_includes(root_)),
@@ -111,6 +117,30 @@ TEST_F(IncludeCheckerTest, KeepsTruthFromTheLoopUnderTestHoweverFarAway) {
   EXPECT_THAT(check("tracker/a.cc", "core/score.h"),
               ElementsAre("tracker may not reach core/truth.h"));
   EXPECT_THAT(check("sim/a.cc", "core/score.h"), IsEmpty());
+}
+
+TEST_F(IncludeCheckerTest, KeepsTruthFromTheNodesUnderTest) {
+  const std::string reason = "a node under test may not see core/truth.h";
+  write("msg/channels.h", "#include \"core/truth.h\"\n");
+  for (const std::string file : {"scenarios/tracker_node.h", "scenarios/tracker_node.cc",
+                                 "scenarios/reconstruction_node.h",
+                                 "scenarios/reconstruction_node.cc"}) {
+    EXPECT_THAT(check(file, "core/truth.h"), ElementsAre(reason));
+    EXPECT_THAT(check(file, "msg/channels.h"), IsEmpty());  // all channels are declared there
+  }
+  EXPECT_THAT(check("scenarios/record_node.cc", "core/truth.h"), IsEmpty());
+}
+
+TEST_F(IncludeCheckerTest, FindsTheNodesUnderTestThatListenToTheTruth) {
+  const std::string listens = "\nbus.subscribe(msg::kTruth, take);\n";
+  write("scenarios/record_node.cc", listens);
+  write("scenarios/tracker_node.h", "int kTruthful, notkTruth;\n");
+  EXPECT_THAT(truth_listeners(root_), IsEmpty());
+  write("scenarios/tracker_node.cc", listens);
+  write("scenarios/reconstruction_node.h", listens);
+  const std::string what = ":2: names kTruth: a node under test may not";
+  EXPECT_THAT(truth_listeners(root_), ElementsAre("scenarios/reconstruction_node.h" + what,
+                                                  "scenarios/tracker_node.cc" + what));
 }
 
 TEST_F(IncludeCheckerTest, TakesWhatTheRulesAllow) {

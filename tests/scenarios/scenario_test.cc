@@ -78,6 +78,44 @@ TEST_F(ScenarioTest, SaysWhichFileIsMissing) {
   }
 }
 
+TEST_F(ScenarioTest, NamesAFileWholeHoweverLongItsPath) {
+  const fs::path path = folder_ / std::string(100, 'd') / "none\n.yaml";
+  try {
+    load(path);
+    FAIL() << "no complaint";
+  } catch (const ScenarioError& error) {
+    EXPECT_EQ(error.what(), path.parent_path().string() + "/none?.yaml: no such file");
+  }
+  const std::string model = std::string(100, 'm') + "/none.xml";
+  EXPECT_EQ(complaint("model: " + model + "\n"),
+            "dark.yaml:1:1: model = " + model + ", no such file");
+}
+
+TEST_F(ScenarioTest, RefusesValuesThatDoNotFitEachOther) {
+  const std::string model = "model: models/arena.xml\n";
+  EXPECT_EQ(complaint(model + "world: {ugv: {course: [{x_m: 0}, {x_m: 1}, {x_m: 1}]}}\n"),
+            "dark.yaml: world.ugv.course[2] lies on its predecessor, allowed at least 0.001 m "
+            "apart");
+  EXPECT_EQ(complaint(model + "sensor: {preset: custom, pixel: {log_linear_below: 2.7}}\n"),
+            "dark.yaml: sensor.pixel.log_linear_below = 2.7, allowed 0, or 2.72 to 128");
+  EXPECT_EQ(complaint(model + "sensor: {aps: {exposure_ms: 2, interval_ms: 4}}\n"),
+            "dark.yaml: sensor.aps.interval_ms = 4 with an exposure of 2 ms "
+            "(sensor.aps.exposure_ms), allowed one of them at least "
+            "world.renderer.max_interval_ms = 5");
+}
+
+TEST_F(ScenarioTest, TakesFramesAsFastAsTheWorldIsDrawn) {
+  const std::string model = "model: models/arena.xml\n";
+  EXPECT_EQ(complaint(model + "sensor: {aps: {exposure_ms: 2, interval_ms: 5}}\n"),
+            "no complaint");
+  EXPECT_EQ(complaint(model + "sensor: {aps: {exposure_ms: 5, interval_ms: 4}}\n"),
+            "no complaint");
+  // 5 lux want 0.5 s of exposure, 5000 lux 1 ms.
+  EXPECT_EQ(complaint(model + "sensor: {aps: {interval_ms: 4}}\n"), "no complaint");
+  EXPECT_NE(complaint(model + "illuminance_lux: 5000\nsensor: {aps: {interval_ms: 4}}\n"),
+            "no complaint");
+}
+
 TEST_F(ScenarioTest, ReadsBackWhatItSavedAnywhere) {
   Scenario scenario = load(write("model: models/arena.xml\nname: \"a: b\"\nduration_s: 0.1\n"));
   scenario.illuminance_lux = 1.0 / 3.0;

@@ -21,7 +21,7 @@ Scorer scorer() {
   return Scorer({.scenario = "test",
                  .seed = 7,
                  .camera = test::davis_camera(),
-                 .tag_size_m = test::kTagSize_m,
+                 .tag = {.id = 0, .size_m = test::kTagSize_m},
                  .criteria = {}});
 }
 

@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 const core::CameraModel kCamera = test::davis_camera();
 
 TagScore score(const core::Truth& truth, const std::vector<core::TagDetection>& tags) {
-  return score_tags(kCamera, truth, test::kTagSize_m, tags);
+  return score_tags(kCamera, truth, {.id = 0, .size_m = test::kTagSize_m}, tags);
 }
 
 /// A right detection with every corner moved by this much.
@@ -100,6 +100,16 @@ TEST(ScoreTags, TakesAnotherIdForFalse) {
   const TagScore s = score(test::straight_below(0us), {tag});
   EXPECT_FALSE(s.detected);
   EXPECT_EQ(s.false_detections, 1);
+}
+
+TEST(ScoreTags, ComparesWithTheTagThatIsPrinted) {
+  core::TagDetection tag = moved(0, 0);
+  tag.id = 1;
+  const core::Truth truth = test::straight_below(0us);
+  EXPECT_TRUE(score_tags(kCamera, truth, {.id = 1, .size_m = test::kTagSize_m}, {{tag}}).detected);
+  // Half the size puts each corner 15 px in x and y from where it was seen.
+  const TagConfig small{.id = 1, .size_m = test::kTagSize_m / 2};
+  EXPECT_FALSE(score_tags(kCamera, truth, small, {{tag}}).detected);
 }
 
 TEST(ScoreTags, CountsAtMostOneDetectionAPicture) {

@@ -1,6 +1,7 @@
 #include "sim/autopilot.h"
 
 #include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
 
 #include <cmath>
 
@@ -8,8 +9,6 @@
 
 namespace nightjar::sim {
 namespace {
-
-constexpr double kStep_s = 1e-3;
 
 TEST(GaussMarkov, IsStationaryWithItsSigmaAndCorrelation) {
   GaussMarkov error(Eigen::Vector3d::Constant(2.0), 0.1, core::random_stream(5, "test"));
@@ -46,11 +45,12 @@ TEST(GaussMarkov, StepSizeDoesNotChangeTheStatistics) {
 
 class AutopilotTest : public testing::Test {
  protected:
-  void fly(Autopilot& autopilot, const core::AttitudeSetpoint& setpoint, int steps) {
-    for (int i = 0; i < steps; ++i) {
-      quadrotor_.apply(autopilot.control(setpoint), kStep_s, scene_);
+  void fly(Autopilot& autopilot, const core::AttitudeSetpoint& setpoint, double duration_s) {
+    const double dt_s = scene_.model()->opt.timestep;
+    for (long i = 1; i <= std::lround(duration_s / dt_s); ++i) {
+      quadrotor_.apply(autopilot.control(setpoint), dt_s, scene_);
       scene_.step();
-      autopilot.observe(scene_, core::Time(1000 * (i + 1)), kStep_s);
+      autopilot.observe(scene_, core::from_seconds(static_cast<double>(i) * dt_s), dt_s);
     }
   }
   Eigen::Quaterniond true_attitude() const {
@@ -74,7 +74,7 @@ TEST_F(AutopilotTest, TurnsToTheAttitudeItIsAskedFor) {
   setpoint.thrust_m_s2 = 9.81;
   setpoint.q_world_body = Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitZ()) *
                           Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX());
-  fly(autopilot, setpoint, 2000);
+  fly(autopilot, setpoint, 2.0);
   // Yaw saturates for most of the first second; then gains of 10 and 20 per second leave
   // exp(-7) of what remained.
   EXPECT_LT(true_attitude().angularDistance(setpoint.q_world_body), 2e-3);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
+#include <cmath>
 #include <numeric>
 
 #include "tests/support/sim_scene.h"
@@ -12,9 +13,10 @@ namespace {
 
 class QuadrotorTest : public testing::Test {
  protected:
-  void fly(const Quadrotor::Thrusts& thrusts, int steps) {
-    for (int i = 0; i < steps; ++i) {
-      quadrotor_.apply(thrusts, 1e-3, scene_);
+  void fly(const Quadrotor::Thrusts& thrusts, double duration_s) {
+    const double dt_s = scene_.model()->opt.timestep;
+    for (long left = std::lround(duration_s / dt_s); left > 0; --left) {
+      quadrotor_.apply(thrusts, dt_s, scene_);
       scene_.step();
     }
   }
@@ -30,7 +32,7 @@ class QuadrotorTest : public testing::Test {
 };
 
 TEST_F(QuadrotorTest, HoverThrustKeepsItInPlace) {
-  fly(quadrotor_.allocate(weight_n(), Eigen::Vector3d::Zero()), 1000);
+  fly(quadrotor_.allocate(weight_n(), Eigen::Vector3d::Zero()), 1.0);
   // Rotors start at hover speed, so nothing moves but for rounding.
   EXPECT_LT(velocity().norm(), 1e-6);
 }
@@ -63,7 +65,7 @@ TEST_F(QuadrotorTest, RotorSpeedFollowsWithItsTimeConstant) {
   const double hover = std::sqrt(weight_n() / 4 / config_.max_rotor_thrust_n);
   Quadrotor::Thrusts full;
   full.fill(config_.max_rotor_thrust_n);
-  fly(full, 30);
+  fly(full, config_.motor_time_constant_s);
   const double speed = hover + (1 - hover) * (1 - std::exp(-1.0));
   const double thrust = scene_.data()->ctrl[scene_.id(mjOBJ_ACTUATOR, "rotor_1")];
   EXPECT_NEAR(thrust, config_.max_rotor_thrust_n * speed * speed, 1e-9);
@@ -71,7 +73,7 @@ TEST_F(QuadrotorTest, RotorSpeedFollowsWithItsTimeConstant) {
 
 TEST_F(QuadrotorTest, RisesToTheSpeedAtWhichDragBalancesTheExcessThrust) {
   const double excess_n = 0.35;  // drag_z 0.35 N s/m: 1 m/s
-  fly(quadrotor_.allocate(weight_n() + excess_n, Eigen::Vector3d::Zero()), 15000);
+  fly(quadrotor_.allocate(weight_n() + excess_n, Eigen::Vector3d::Zero()), 15.0);
   // 15 s are over four time constants m / drag = 3.4 s: within 2 % of the end.
   EXPECT_NEAR(velocity().z(), 1.0, 0.02);
 }

@@ -4,7 +4,8 @@
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
-#include <fstream>
+#include <filesystem>
+#include <limits>
 
 #include "tests/support/sim_scene.h"
 
@@ -59,6 +60,31 @@ TEST(Scene, VelocityOfAPointIsThatOfARigidBody) {
   const Eigen::Vector3d p = scene.T_world_body(uav).translation() + arm;
   EXPECT_LT((scene.velocity_at(uav, p) - (linear + omega.cross(arm))).norm(), 1e-12);
   EXPECT_LT((scene.omega_world(uav) - omega).norm(), 1e-12);
+}
+
+TEST(Scene, DivergedPhysicsThrowsAndLeavesNoLogFile) {
+  std::filesystem::remove("MUJOCO_LOG.TXT");
+  Scene scene(test::arena());
+  scene.step();
+  scene.data()->qvel[0] = std::numeric_limits<double>::quiet_NaN();
+  try {
+    scene.step();
+    FAIL() << "went on";
+  } catch (const std::runtime_error& e) {
+    EXPECT_THAT(e.what(), HasSubstr("QVEL"));
+    EXPECT_THAT(e.what(), HasSubstr("0.0005"));  // the arena's time step: one was taken
+  }
+  EXPECT_FALSE(std::filesystem::exists("MUJOCO_LOG.TXT"));
+}
+
+TEST(Scene, MuJoCosOwnErrorsAreThrown) {
+  const Scene scene(test::arena());
+  try {
+    mju_error("no such thing");
+    FAIL() << "went on";
+  } catch (const std::runtime_error& e) {
+    EXPECT_STREQ(e.what(), "MuJoCo: no such thing");
+  }
 }
 
 }  // namespace

@@ -77,12 +77,12 @@ TEST(Simulation, DrawsMoreOftenWhenMoreMoves) {
 
 TEST(Simulation, PacketIntervalMustBeWholePhysicsSteps) {
   CameraConfig camera;
-  camera.packet_interval_ms = 10.5;
+  camera.packet_interval_ms = 10.3;
   try {
     Simulation simulation(WorldConfig{}, camera, SensorConfig{}, test::arena(), 5.0, 1);
     FAIL() << "accepted";
   } catch (const std::invalid_argument& e) {
-    EXPECT_THAT(e.what(), testing::HasSubstr("camera.packet_interval_ms = 10.5"));
+    EXPECT_THAT(e.what(), testing::HasSubstr("camera.packet_interval_ms = 10.3"));
   }
 }
 

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
+#include <cmath>
+
 #include "tests/support/sim_scene.h"
 
 namespace nightjar::sim {
@@ -24,9 +26,10 @@ class UgvTest : public testing::Test {
     scene_.place("ugv", ugv_->T_world_start(0.085));
     scene_.settle();
   }
-  void drive(double seconds) {
-    for (int i = 0; i < static_cast<int>(seconds * 1000); ++i) {
-      ugv_->drive(1e-3, scene_);
+  void drive(double duration_s) {
+    const double dt_s = scene_.model()->opt.timestep;
+    for (long left = std::lround(duration_s / dt_s); left > 0; --left) {
+      ugv_->drive(dt_s, scene_);
       scene_.step();
     }
   }

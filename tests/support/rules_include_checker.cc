@@ -95,6 +95,17 @@ std::optional<std::string> leaked_truth(const Include& include, const Graph& gra
   return from + " may not reach core/truth.h";
 }
 
+// Of scenarios, these two carry the loop under test.
+bool is_blind_node(const std::string& file) {
+  static const std::regex kBlind(R"(scenarios/(reconstruction|tracker)_node\.(h|cc))");
+  return std::regex_match(file, kBlind);
+}
+
+std::optional<std::string> broken_node_rule(const Include& include) {
+  if (!is_blind_node(include.file) || include.path != "core/truth.h") return std::nullopt;
+  return "a node under test may not see core/truth.h";
+}
+
 void read_file(const fs::path& root, const fs::path& path, std::vector<Include>& includes) {
   static const std::regex kInclude(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"].*)");
   std::ifstream stream(path);
@@ -105,9 +116,8 @@ void read_file(const fs::path& root, const fs::path& path, std::vector<Include>&
       includes.push_back({fs::relative(path, root).generic_string(), line, match[1].str()});
 }
 
-}  // namespace
-
-std::vector<Include> read_includes(const fs::path& root) {
+// Every .h and .cc file of the project's folders.
+std::set<fs::path> sources(const fs::path& root) {
   std::set<fs::path> files;
   for (const auto& [folder, allowed] : kMayInclude) {
     if (!fs::is_directory(root / folder)) continue;
@@ -115,8 +125,29 @@ std::vector<Include> read_includes(const fs::path& root) {
       if (entry.path().extension() == ".h" || entry.path().extension() == ".cc")
         files.insert(entry.path());
   }
+  return files;
+}
+
+}  // namespace
+
+std::vector<std::string> truth_listeners(const fs::path& root) {
+  static const std::regex kName(R"(.*\bkTruth\b.*)");
+  std::vector<std::string> found;
+  for (const fs::path& path : sources(root)) {
+    const std::string file = fs::relative(path, root).generic_string();
+    if (!is_blind_node(file)) continue;
+    std::ifstream stream(path);
+    std::string text;
+    for (int line = 1; std::getline(stream, text); ++line)
+      if (std::regex_match(text, kName))
+        found.push_back(fmt::format("{}:{}: names kTruth: a node under test may not", file, line));
+  }
+  return found;
+}
+
+std::vector<Include> read_includes(const fs::path& root) {
   std::vector<Include> includes;
-  for (const fs::path& file : files) read_file(root, file, includes);
+  for (const fs::path& file : sources(root)) read_file(root, file, includes);
   return includes;
 }
 
@@ -128,6 +159,7 @@ std::vector<std::string> violations(const std::vector<Include>& includes) {
     auto why =
         is_project(include.path) ? broken_project_rule(include) : broken_external_rule(include);
     if (!why) why = leaked_truth(include, graph);
+    if (!why) why = broken_node_rule(include);
     if (why)
       found.push_back(
           fmt::format("{}:{}: includes {}: {}", include.file, include.line, include.path, *why));

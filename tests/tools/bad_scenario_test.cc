@@ -1,44 +1,33 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
+
+#include "tests/support/scratch_folder.h"
 
 namespace nightjar::tools {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& path) {
-  std::ifstream stream(path);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 // Runs the built program in a folder of its own, without a person to ask.
 class BadScenarioTest : public testing::Test {
  protected:
-  BadScenarioTest() {
-    fs::create_directories(folder_);
-    std::ofstream(folder_ / "arena.xml") << "<mujoco/>";
-  }
-  ~BadScenarioTest() override { fs::remove_all(folder_); }
+  BadScenarioTest() { std::ofstream(folder_ / "arena.xml") << "<mujoco/>"; }
 
   void write(const std::string& text) const { std::ofstream(folder_ / "dark.yaml") << text; }
 
   // The exit code; what it said goes to `out` and `err`.
   int run(const std::string& arguments) {
-    const std::string command = "cd '" + folder_.string() + "' && '" NIGHTJAR_PROGRAM "' " +
+    const std::string command = "cd '" + folder_.path().string() + "' && '" NIGHTJAR_PROGRAM "' " +
                                 arguments + " >out.txt 2>err.txt </dev/null";
     const int status = std::system(command.c_str());
-    out = text_of(folder_ / "out.txt");
-    err = text_of(folder_ / "err.txt");
+    out = test::file_text(folder_ / "out.txt");
+    err = test::file_text(folder_ / "err.txt");
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 
@@ -49,7 +38,7 @@ class BadScenarioTest : public testing::Test {
     EXPECT_TRUE(err.starts_with("nightjar: ") && err.ends_with("\n")) << err;
     EXPECT_NE(err.find(part), std::string::npos) << err;
     EXPECT_EQ(out, "");
-    EXPECT_FALSE(fs::exists(folder_ / "results" / "summary.json"));
+    EXPECT_FALSE(fs::exists(folder_ / "results/summary.json"));
   }
 
   void expect_refused_text(const std::string& text, const std::string& part) {
@@ -57,7 +46,7 @@ class BadScenarioTest : public testing::Test {
     expect_refused("run dark.yaml --out results", part);
   }
 
-  fs::path folder_ = fs::temp_directory_path() / ("nightjar_bad_" + std::to_string(getpid()));
+  test::ScratchFolder folder_;
   std::string out;
   std::string err;
 };
@@ -83,6 +72,22 @@ TEST_F(BadScenarioTest, AMissingModelIsRefused) {
 
 TEST_F(BadScenarioTest, AModelThatIsNoSceneIsRefused) {
   expect_refused_text("model: arena.xml\n", "arena.xml");
+}
+
+TEST_F(BadScenarioTest, ARunThatCannotBeginLeavesNoEarlierOnesResults) {
+  fs::create_directories(folder_ / "results");
+  std::ofstream(folder_ / "results/summary.json") << "{}";
+  std::ofstream(folder_ / "results/run.lcm") << "old";
+  expect_refused_text("model: arena.xml\n", "arena.xml");  // no summary.json, among others
+  EXPECT_TRUE(fs::is_empty(folder_ / "results"));
+}
+
+TEST_F(BadScenarioTest, AFileThatIsNoScenarioLeavesAnEarlierRunsResultsAlone) {
+  fs::create_directories(folder_ / "results");
+  std::ofstream(folder_ / "results/summary.json") << "{}";
+  write("model: [arena.xml\n");
+  EXPECT_EQ(run("run dark.yaml --out results"), 2);
+  EXPECT_EQ(test::file_text(folder_ / "results/summary.json"), "{}");
 }
 
 TEST_F(BadScenarioTest, AnEmptyFileIsRefused) { expect_refused_text("", "dark.yaml:1:1: "); }

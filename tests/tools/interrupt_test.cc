@@ -5,8 +5,9 @@
 
 #include <chrono>
 #include <filesystem>
-#include <string>
 #include <thread>
+
+#include "tests/support/scratch_folder.h"
 
 namespace nightjar::tools {
 namespace {
@@ -21,7 +22,8 @@ bool appears(const fs::path& path, std::chrono::seconds within) {
 }
 
 TEST(InterruptTest, CtrlCEndsARunWith130AndWithoutResultsThatLookComplete) {
-  const fs::path out = fs::temp_directory_path() / ("nightjar_int_" + std::to_string(getpid()));
+  const test::ScratchFolder scratch;
+  const fs::path out = scratch / "out";
   const pid_t child = fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
@@ -39,7 +41,6 @@ TEST(InterruptTest, CtrlCEndsARunWith130AndWithoutResultsThatLookComplete) {
   EXPECT_EQ(WEXITSTATUS(status), 130);
   for (const char* result : {"summary.json", "estimates.csv", "run.lcm", "run.mp4"})
     EXPECT_FALSE(fs::exists(out / result)) << result;
-  fs::remove_all(out);
 }
 
 }  // namespace

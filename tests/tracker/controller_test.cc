@@ -191,15 +191,24 @@ TEST(Dither, ShrinksTowardsTheBoardAndCanBeOff) {
   EXPECT_NEAR(Eigen::AngleAxisd(Controller(steady()).dither(Time{}, {})).angle(), 0, 1e-12);
 }
 
-TEST(Dither, MovesTheVehicleByMillimetresOnly) {
+TEST(Dither, MovesTheVehicleRoundACircleOfTiltOverRateSquared) {
+  ControllerConfig config;
+  config.dither_tilt_deg = 2;
+  config.dither_rate_hz = 3;
   Plant plant;
   plant.state.p_world_body_m = {0, 0, 1.5};
   TargetState x = TargetState::Zero();
   x[2] = 1.5;
-  // Tilt A at rate w through a lag T: g A / (w^2 sqrt(1 + w^2 T^2)) = 0.53 mm at
-  // 2 degrees and 3 Hz; the position loop may add as much again. cos 2 degrees
-  // costs 6e-4 of the thrust, which the integral has.
-  EXPECT_LT(chase(plant, x, 16, 10, ControllerConfig{}).worst_m, 2e-3);
+  // g A / w^2 = 0.96 mm, of which the attitude's lag leaves 1 / sqrt(1 + w^2 T^2) = 0.55.
+  const double omega_rad_s = 2 * std::numbers::pi * config.dither_rate_hz;
+  const double lag = std::hypot(1, omega_rad_s * Plant::kAttitude_s);
+  const double circle_m =
+      9.81 * config.dither_tilt_deg * kRad_deg / (omega_rad_s * omega_rad_s * lag);
+  // The velocity loop works against the circle's speed w r through the same lag: gain / (w lag)
+  // of it. Drag of 0.2 / w = 1 % and the 10 ms that a setpoint holds are within the rest. The
+  // integral's pole near 0.4 rad/s has forgotten the start by then, e^(-0.4 * 30).
+  const double tolerance = 0.03 + config.velocity_gain_hz / (omega_rad_s * lag);
+  EXPECT_NEAR(chase(plant, x, 32, 30, config).worst_m, circle_m, tolerance * circle_m);
 }
 
 TEST(Attitude, PutsBodyZAlongTheThrustAndBodyXOverTheHeading) {

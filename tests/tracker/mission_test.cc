@@ -244,9 +244,13 @@ TEST(Mission, GivesUpALandingThatFindsNoBoard) {
   flight.on_board = false;
   flight.reach(MissionPhase::land);
   flight.aside_m = {0, 0, 0.6};  // hovers above it, whatever it is told
-  flight.fly(MissionConfig{}.land_timeout_s + 0.1);
+  flight.fly(MissionConfig{}.land_timeout_s - 0.1);
+  const double hover_z_m = flight.vehicle.p_world_body_m.z();
+  EXPECT_LT(flight.goal.p_world_m.z(), hover_z_m);  // told to come down to the last
+  flight.fly(0.2);
   EXPECT_EQ(flight.mission.phase(), MissionPhase::search);
   EXPECT_THAT(flight.log.back().cause, HasSubstr("no touchdown within 3.50 s"));
+  EXPECT_GE(flight.goal.p_world_m.z(), hover_z_m);  // and no longer now
 }
 
 TEST(Mission, DoesNotTakeSinkingThroughStandingHeightForTouchdown) {

@@ -15,6 +15,7 @@ class Plant {
   core::VehicleState state;
   Eigen::Vector3d wind_m_s2 = Eigen::Vector3d::Zero();  ///< Constant push.
   double board_z_m = -1e3;                               ///< Stops here.
+  static constexpr double kAttitude_s = 0.08;            ///< Time constant of the attitude.
 
   /// Moves on by `dt`, by steps of 1 ms.
   void fly(const core::AttitudeSetpoint& setpoint, core::Time dt) {
@@ -23,7 +24,7 @@ class Plant {
 
  private:
   void step(const core::AttitudeSetpoint& setpoint, double dt_s) {
-    constexpr double kAttitude_s = 0.08, kMotor_s = 0.03, kDrag_hz = 0.2;
+    constexpr double kMotor_s = 0.03, kDrag_hz = 0.2;
     const double wanted = setpoint.motors_on ? setpoint.thrust_m_s2 : 0.0;
     thrust_m_s2_ += (wanted - thrust_m_s2_) * dt_s / kMotor_s;
     const Eigen::Quaterniond before = state.q_world_body;

@@ -1,0 +1,95 @@
+#include "sim/renderer.h"
+
+#include <gtest/gtest.h>
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "tests/support/scratch_folder.h"
+
+namespace nightjar::sim {
+namespace {
+
+constexpr core::Resolution kSize{64, 48};
+constexpr double kWhite_lux = 5.0;
+
+// Seen from 2 m above (1 m is 29 px): a grey floor, and a white square of 0.4 m whose
+// middle lies 0.4 m up and 0.6 m left in the picture, turned so that it has slant edges.
+constexpr const char* kModel = R"(<mujoco>
+  <visual><headlight ambient="0 0 0" diffuse="0 0 0" specular="0 0 0"/></visual>
+  <worldbody>
+    <light directional="true" dir="0 0 -1" castshadow="false" ambient="0.25 0.25 0.25"
+           diffuse="0.75 0.75 0.75" specular="0 0 0"/>
+    <geom type="box" size="5 5 0.05" pos="0 0 -0.05" rgba="0.2 0.2 0.2 1"/>
+    <geom type="box" size="0.2 0.2 0.005" pos="-0.6 0.4 0.005" euler="0 0 20" rgba="1 1 1 1"/>
+    <camera name="down" pos="0 0 2" fovy="45"/>
+  </worldbody>
+</mujoco>)";
+
+class RendererTest : public testing::Test {
+ protected:
+  static std::filesystem::path write_model(const std::filesystem::path& path) {
+    std::ofstream(path) << kModel;
+    return path;
+  }
+
+  core::Image<float> draw(core::Resolution size, int supersampling, double white_lux = kWhite_lux) {
+    core::Image<float> luminance_lux;
+    Renderer renderer(scene_, size, supersampling);
+    renderer.draw(scene_, scene_.id(mjOBJ_CAMERA, "down"), white_lux, luminance_lux);
+    return luminance_lux;
+  }
+
+  test::ScratchFolder scratch_;
+  Scene scene_{write_model(scratch_ / "two_greys.xml")};
+};
+
+TEST_F(RendererTest, IsLinearInTheLight) {
+  const core::Image<float> dim = draw(kSize, 1, 1.0), bright = draw(kSize, 1, 250.0);
+  for (int i = 0; i < kSize.pixels(); ++i)  // float rounds at 6e-8
+    EXPECT_NEAR(bright.pixels()[i], 250 * dim.pixels()[i], 250 * 1e-6);
+}
+
+TEST_F(RendererTest, TopRowIsFirstAndLeftColumnToo) {
+  const core::Image<float> picture = draw(kSize, 1);
+  // The square's middle: 17 px left of and 12 px above the picture's.
+  EXPECT_GT(picture(15, 12), 0.8 * kWhite_lux);
+  for (const auto& [x, y] : {std::pair{48, 12}, {15, 35}, {48, 35}})
+    EXPECT_LT(picture(x, y), 0.4 * kWhite_lux) << x << ' ' << y;
+}
+
+TEST_F(RendererTest, SupersamplingIsTheMeanOfTheFinerPicture) {
+  const core::Image<float> fine = draw({2 * kSize.width_px, 2 * kSize.height_px}, 1);
+  const core::Image<float> twice = draw(kSize, 2);
+  for (int y = 0; y < kSize.height_px; ++y)
+    for (int x = 0; x < kSize.width_px; ++x) {
+      const float mean = 0.25f * (fine(2 * x, 2 * y) + fine(2 * x + 1, 2 * y) +
+                                  fine(2 * x, 2 * y + 1) + fine(2 * x + 1, 2 * y + 1));
+      EXPECT_NEAR(twice(x, y), mean, 1e-5 * kWhite_lux) << x << ' ' << y;  // float sums
+    }
+}
+
+TEST_F(RendererTest, SupersamplingChangesEdgesAndNoFlatArea) {
+  const core::Image<float> once = draw(kSize, 1), twice = draw(kSize, 2);
+  const auto [dark, bright] = std::minmax_element(once.pixels().begin(), once.pixels().end());
+  EXPECT_NEAR(twice(48, 35), once(48, 35), 1e-5 * kWhite_lux);
+  const auto between = std::count_if(
+      twice.pixels().begin(), twice.pixels().end(), [lo = *dark, hi = *bright](float v) {
+        return v > lo + 0.1f * (hi - lo) && v < hi - 0.1f * (hi - lo);
+      });
+  EXPECT_GT(between, 10);  // of some 45 pixels along the square's edges
+}
+
+TEST_F(RendererTest, ACameraThatIsNotThereIsRefusedByItsName) {
+  try {
+    scene_.id(mjOBJ_CAMERA, "up");
+    FAIL() << "found";
+  } catch (const std::invalid_argument& e) {
+    EXPECT_NE(std::string(e.what()).find("no camera named 'up'"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace nightjar::sim
