@@ -69,8 +69,8 @@ class Run {
 };
 
 Scorer::Setup scorer_setup(const Scenario& scenario, const core::CameraModel& camera) {
-  return {scenario.name, static_cast<std::uint64_t>(scenario.seed), camera,
-          scenario.tag, scenario.pass};
+  return {scenario.name, static_cast<std::uint64_t>(scenario.seed), camera, scenario.tag,
+          scenario.pass};
 }
 
 Run::Run(const Scenario& scenario, const RunOptions& options)

@@ -38,6 +38,7 @@ class World {
     TrackerConfig config;
     config.mission.land_after_s = 6;
     config.command_delay_ms = 0;
+    config.measurement.corner_inset_px = 0;  // these tags are drawn, not made of events
     return config;
   }
 
