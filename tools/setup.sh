@@ -32,5 +32,5 @@ fi
 echo "setup: installing$missing"
 $sudo apt-get update -qq || fail "apt-get update did not work"
 # shellcheck disable=SC2086  # one word a package
-$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends $missing ||
+$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing ||
   fail "apt-get could not install:$missing"
