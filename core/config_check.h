@@ -36,8 +36,7 @@ class RangeCheck {
   }
   /// Every element has the same range.
   template <std::size_t N>
-  void field(const char* name, const std::array<double, N>& value, double least,
-             double greatest) {
+  void field(const char* name, const std::array<double, N>& value, double least, double greatest) {
     for (std::size_t i = 0; i < N; ++i)
       check_range(at(name) + '[' + std::to_string(i) + ']', value[i], least, greatest);
   }
@@ -57,8 +56,8 @@ class RangeCheck {
   template <class Config>
   void list(const char* name, std::vector<Config>& configs, std::size_t least,
             std::size_t greatest) {
-    check_range(at(name) + ".size", static_cast<double>(configs.size()),
-                static_cast<double>(least), static_cast<double>(greatest));
+    check_range(at(name) + ".size", static_cast<double>(configs.size()), static_cast<double>(least),
+                static_cast<double>(greatest));
     for (std::size_t i = 0; i < configs.size(); ++i)
       section((std::string(name) + '[' + std::to_string(i) + ']').c_str(), configs[i]);
   }

@@ -38,13 +38,13 @@ struct TagDetection {
 /// The UGV's motion as estimated for time `t`, in the world.
 struct TargetEstimate {
   Time t{};
-  bool valid = false;                                        ///< false before the first tag
-  Eigen::Vector3d p_world_tag_m = Eigen::Vector3d::Zero();   ///< tag centre
+  bool valid = false;                                       ///< false before the first tag
+  Eigen::Vector3d p_world_tag_m = Eigen::Vector3d::Zero();  ///< tag centre
   Eigen::Vector3d v_world_tag_m_s = Eigen::Vector3d::Zero();
-  double heading_rad = 0;                                    ///< about world z, from x
+  double heading_rad = 0;  ///< about world z, from x
   double turn_rate_rad_s = 0;
-  Eigen::Vector3d sigma_p_m = Eigen::Vector3d::Zero();       ///< standard deviations
-  Time last_tag{};                                           ///< picture of the last tag used
+  Eigen::Vector3d sigma_p_m = Eigen::Vector3d::Zero();  ///< standard deviations
+  Time last_tag{};                                      ///< picture of the last tag used
 };
 
 /// What the companion computer asks of the autopilot: an attitude and a

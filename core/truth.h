@@ -16,10 +16,10 @@ struct Truth {
   Eigen::Isometry3d T_world_tag = Eigen::Isometry3d::Identity();
   Eigen::Vector3d v_world_tag_m_s = Eigen::Vector3d::Zero();
   double turn_rate_rad_s = 0;
-  std::string course_phase;     ///< of the UGV's course: straight, turning, landing
-  bool on_board = false;        ///< UAV's feet touch the landing board
-  bool crashed = false;         ///< UAV touches anything else
-  bool ugv_collided = false;    ///< UGV touches an obstacle
+  std::string course_phase;   ///< of the UGV's course: straight, turning, landing
+  bool on_board = false;      ///< UAV's feet touch the landing board
+  bool crashed = false;       ///< UAV touches anything else
+  bool ugv_collided = false;  ///< UGV touches an obstacle
 };
 
 }  // namespace nightjar::core

@@ -10,8 +10,8 @@ namespace {
 
 [[noreturn]] void refuse(const core::Event& e, core::Resolution size, core::Time last) {
   if (e.t < last)
-    throw std::invalid_argument("event at " + std::to_string(e.t.count()) +
-                                " us, allowed from " + std::to_string(last.count()) + " us on");
+    throw std::invalid_argument("event at " + std::to_string(e.t.count()) + " us, allowed from " +
+                                std::to_string(last.count()) + " us on");
   throw std::invalid_argument("event at (" + std::to_string(e.x) + ", " + std::to_string(e.y) +
                               "), allowed (0, 0) to (" + std::to_string(size.width_px - 1) + ", " +
                               std::to_string(size.height_px - 1) + ")");
@@ -44,8 +44,8 @@ void Esi::process(std::span<const core::Event> events) {
   for (const core::Event& e : events) {
     if (e.t < last_ || e.x >= size_.width_px || e.y >= size_.height_px) refuse(e, size_, last_);
     last_ = e.t;
-    Cell& cell = cells_[static_cast<std::size_t>(e.y) * static_cast<std::size_t>(size_.width_px) +
-                        e.x];
+    Cell& cell =
+        cells_[static_cast<std::size_t>(e.y) * static_cast<std::size_t>(size_.width_px) + e.x];
     const float added = cell.sum_log + (e.on ? step : -step);
     const float decayed = added * decay(core::Time(e.t.count() - cell.last_us));
     cell.last_us = e.t.count();

@@ -13,8 +13,8 @@ namespace nightjar::scenarios {
 /// Acts within Bus::dispatch() and knows neither who sends nor who listens.
 class TrackerNode {
  public:
-  TrackerNode(msg::Bus& bus, const tracker::TrackerConfig& config,
-              const core::CameraModel& camera, const Eigen::Isometry3d& T_body_camera);
+  TrackerNode(msg::Bus& bus, const tracker::TrackerConfig& config, const core::CameraModel& camera,
+              const Eigen::Isometry3d& T_body_camera);
 
  private:
   tracker::Tracker tracker_;

@@ -65,9 +65,9 @@ struct Video::Impl {
   core::Resolution sensor;
   core::Resolution pane;
   cv::VideoWriter writer;
-  core::Image<std::uint8_t> frame;      // of the active pixels
+  core::Image<std::uint8_t> frame;  // of the active pixels
   core::Image<std::uint8_t> picture;
-  std::vector<core::Event> events;      // since the last video frame
+  std::vector<core::Event> events;  // since the last video frame
   Pane chase;
   core::Time next_due;
   int frames_written;
@@ -76,9 +76,16 @@ struct Video::Impl {
 };
 
 Video::Video(msg::Bus& bus, OutputFolder& folder, const core::CameraModel& camera)
-    : impl_(new Impl{folder, camera.size,
+    : impl_(new Impl{folder,
+                     camera.size,
                      {kPaneScale * camera.size.width_px, kPaneScale * camera.size.height_px},
-                     {}, {}, {}, {}, {}, kFrameInterval, 0}) {
+                     {},
+                     {},
+                     {},
+                     {},
+                     {},
+                     kFrameInterval,
+                     0}) {
   impl_->chase = Pane(impl_->pane);
   const std::string path = folder.part(kVideoFile).string();
   const cv::Size size(2 * impl_->pane.width_px, 2 * impl_->pane.height_px + kCaptionHeight);
@@ -86,8 +93,7 @@ Video::Video(msg::Bus& bus, OutputFolder& folder, const core::CameraModel& camer
                           size))
     throw std::runtime_error("cannot write the video " + path);
   Impl& impl = *impl_;
-  bus.subscribe(msg::kApsFrame,
-                [&impl](const core::ApsFrame& frame) { impl.frame = frame.gray; });
+  bus.subscribe(msg::kApsFrame, [&impl](const core::ApsFrame& frame) { impl.frame = frame.gray; });
   bus.subscribe(msg::kPicture,
                 [&impl](const core::Picture& picture) { impl.picture = picture.gray; });
   bus.subscribe(msg::kEvents, [&impl](const core::EventPacket& packet) {

@@ -11,8 +11,8 @@ namespace {
 constexpr double kNeededLuxS = 5;
 constexpr double kLongestExposureS = 0.5;
 
-constexpr int kAdcCodes = 1024;     // the DAVIS's converter has 10 bits,
-constexpr int kCodesPerGray = 4;    // its frames are handed over with 8
+constexpr int kAdcCodes = 1024;   // the DAVIS's converter has 10 bits,
+constexpr int kCodesPerGray = 4;  // its frames are handed over with 8
 
 // NaN and negative light is none; infinite light saturates without spoiling sums.
 float usable(float luminance_lux) {
@@ -74,8 +74,7 @@ std::optional<core::ApsFrame> ApsSensor::add(core::Time t,
       integrate(t, luminance_lux);  // the next exposure may have begun within this step
     }
   }
-  std::ranges::transform(luminance_lux.pixels(), luminance_lux_.pixels().begin(),
-                         usable);
+  std::ranges::transform(luminance_lux.pixels(), luminance_lux_.pixels().begin(), usable);
   last_ = t;
   return frame;
 }

@@ -50,7 +50,7 @@ class ApsSensor {
   core::Random noise_;
 
   std::optional<core::Time> last_;
-  core::Time begin_{};            ///< Of the exposure under way or the next one.
+  core::Time begin_{};                ///< Of the exposure under way or the next one.
   core::Image<float> luminance_lux_;  ///< At `last_`.
   std::vector<float> charge_lux_s_;
 };

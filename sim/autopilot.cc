@@ -36,11 +36,11 @@ Autopilot::Autopilot(const AutopilotConfig& c, const Quadrotor& quadrotor, std::
       quadrotor_(quadrotor),
       position_error_m_(Eigen::Vector3d::Constant(c.position_sigma_m), c.position_correlation_s,
                         core::random_stream(seed, "autopilot.position")),
-      velocity_error_m_s_(Eigen::Vector3d::Constant(c.velocity_sigma_m_s),
-                          c.velocity_correlation_s, core::random_stream(seed, "autopilot.velocity")),
-      attitude_error_rad_({radians(c.tilt_sigma_deg), radians(c.tilt_sigma_deg),
-                           radians(c.heading_sigma_deg)},
-                          c.attitude_correlation_s, core::random_stream(seed, "autopilot.attitude")),
+      velocity_error_m_s_(Eigen::Vector3d::Constant(c.velocity_sigma_m_s), c.velocity_correlation_s,
+                          core::random_stream(seed, "autopilot.velocity")),
+      attitude_error_rad_(
+          {radians(c.tilt_sigma_deg), radians(c.tilt_sigma_deg), radians(c.heading_sigma_deg)},
+          c.attitude_correlation_s, core::random_stream(seed, "autopilot.attitude")),
       gyro_random_(core::random_stream(seed, "autopilot.gyro")) {}
 
 void Autopilot::observe(const Scene& scene, core::Time t, double dt_s) {

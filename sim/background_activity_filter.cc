@@ -28,8 +28,8 @@ bool BackgroundActivityFilter::passes(const core::Event& event) {
   const std::int64_t since_us = event.t.count() - config_.window_us;
   *centre = event.t.count();
   return above[-1] >= since_us || above[0] >= since_us || above[1] >= since_us ||
-         centre[-1] >= since_us || centre[1] >= since_us ||
-         below[-1] >= since_us || below[0] >= since_us || below[1] >= since_us;
+         centre[-1] >= since_us || centre[1] >= since_us || below[-1] >= since_us ||
+         below[0] >= since_us || below[1] >= since_us;
 }
 
 }  // namespace nightjar::sim

@@ -10,10 +10,10 @@ namespace nightjar::sim {
 
 /// Rotors and drag of the UAV; mass, inertia and rotor places are in the MJCF.
 struct QuadrotorConfig {
-  double max_rotor_thrust_n = 7.0;       ///< Of one rotor at full speed.
-  double motor_time_constant_s = 0.03;   ///< First-order lag of the rotor speed.
-  double drag_xy_n_s_m = 0.25;           ///< Linear drag along body x and y.
-  double drag_z_n_s_m = 0.35;            ///< Linear drag along body z.
+  double max_rotor_thrust_n = 7.0;      ///< Of one rotor at full speed.
+  double motor_time_constant_s = 0.03;  ///< First-order lag of the rotor speed.
+  double drag_xy_n_s_m = 0.25;          ///< Linear drag along body x and y.
+  double drag_z_n_s_m = 0.35;           ///< Linear drag along body z.
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -32,12 +32,12 @@ struct AutopilotConfig {
   double position_correlation_s = 10.0;
   double velocity_sigma_m_s = 0.03;
   double velocity_correlation_s = 1.0;
-  double tilt_sigma_deg = 0.3;           ///< Roll and pitch, each.
+  double tilt_sigma_deg = 0.3;  ///< Roll and pitch, each.
   double heading_sigma_deg = 1.0;
   double attitude_correlation_s = 5.0;
-  double rate_sigma_rad_s = 0.01;        ///< White, per step of the inner loop.
-  double attitude_gain_1_s = 10.0;       ///< Attitude error to body rate.
-  double rate_gain_1_s = 20.0;           ///< Body rate error to angular acceleration.
+  double rate_sigma_rad_s = 0.01;   ///< White, per step of the inner loop.
+  double attitude_gain_1_s = 10.0;  ///< Attitude error to body rate.
+  double rate_gain_1_s = 20.0;      ///< Body rate error to angular acceleration.
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -101,8 +101,8 @@ struct RendererConfig {
   /// are drawn, the tag and all edges on the landing board among them; what 1 leaves
   /// jagged are the outlines of bodies.
   int supersampling = 1;
-  double max_motion_px = 0.5;       ///< Between two renders (ESIM, Rebecq et al. 2018).
-  double max_interval_ms = 5.0;     ///< Even if nothing moves.
+  double max_motion_px = 0.5;    ///< Between two renders (ESIM, Rebecq et al. 2018).
+  double max_interval_ms = 5.0;  ///< Even if nothing moves.
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -135,8 +135,8 @@ struct WorldConfig {
 struct CameraConfig {
   int width_px = 346;
   int height_px = 260;
-  double fovy_deg = 47.3;           ///< 346x260: f = 296.9 px, a 5.5 mm lens on 18.5 um pixels.
-  double packet_interval_ms = 10.0; ///< Events come in packets of this length.
+  double fovy_deg = 47.3;            ///< 346x260: f = 296.9 px, a 5.5 mm lens on 18.5 um pixels.
+  double packet_interval_ms = 10.0;  ///< Events come in packets of this length.
 
   template <class Visitor>
   void visit(Visitor& v) {

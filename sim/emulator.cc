@@ -64,8 +64,7 @@ struct Fired {
 
 class EventEmulator::Pixels {
  public:
-  Pixels(const PixelConfig& config, core::Resolution size, double white_lux,
-         std::uint64_t seed);
+  Pixels(const PixelConfig& config, core::Resolution size, double white_lux, std::uint64_t seed);
 
   void step(core::Time t, const core::Image<float>& luminance_lux,
             std::vector<core::Event>& events);
@@ -118,13 +117,12 @@ class EventEmulator::Pixels {
   BlockScratch before_;
 };
 
-EventEmulator::Pixels::Pixels(const PixelConfig& config, core::Resolution size,
-                              double white_lux, std::uint64_t seed)
+EventEmulator::Pixels::Pixels(const PixelConfig& config, core::Resolution size, double white_lux,
+                              std::uint64_t seed)
     : threshold_on(draw_thresholds_log(config.threshold_on_log, config.threshold_on_sigma_log,
                                        size.pixels(), core::random_stream(seed, "threshold_on"))),
       threshold_off(draw_thresholds_log(config.threshold_off_log, config.threshold_off_sigma_log,
-                                        size.pixels(),
-                                        core::random_stream(seed, "threshold_off"))),
+                                        size.pixels(), core::random_stream(seed, "threshold_off"))),
       config_(config),
       size_(size),
       pixels_(static_cast<std::uint32_t>(size.pixels())),
@@ -139,12 +137,12 @@ EventEmulator::Pixels::Pixels(const PixelConfig& config, core::Resolution size,
       leak_draws_(config.leak_rate_hz > 0 ? pixels_ : 0),
       rest_until_us_(config.refractory_us > 0 ? pixels_ : 0, -1e300),
       leak_key_(core::random_stream(seed, "leak_jitter")()),
-      shot_on_(shot_noise_rates_hz(config.shot_noise_rate_hz, config.threshold_on_log,
-                                   threshold_on),
-               core::random_stream(seed, "shot_on")),
-      shot_off_(shot_noise_rates_hz(config.shot_noise_rate_hz, config.threshold_off_log,
-                                    threshold_off),
-                core::random_stream(seed, "shot_off")),
+      shot_on_(
+          shot_noise_rates_hz(config.shot_noise_rate_hz, config.threshold_on_log, threshold_on),
+          core::random_stream(seed, "shot_on")),
+      shot_off_(
+          shot_noise_rates_hz(config.shot_noise_rate_hz, config.threshold_off_log, threshold_off),
+          core::random_stream(seed, "shot_off")),
       hot_({}, core::Random()),
       hot_pixels_(draw_hot_pixels(config, pixels_, seed)) {
   hot_ = PointProcess(hot_pixels_.rates_hz, core::random_stream(seed, "hot_pixel_time"));
@@ -168,9 +166,8 @@ void EventEmulator::Pixels::check_step(core::Time t,
                                             luminance_lux.width(), luminance_lux.height(),
                                             size_.width_px, size_.height_px));
   if (now_ && (t <= *now_ || t - *now_ > kLongestStep))
-    throw std::invalid_argument(
-        fmt::format("time = {} us, allowed above {} and at most an hour later", t.count(),
-                    now_->count()));
+    throw std::invalid_argument(fmt::format(
+        "time = {} us, allowed above {} and at most an hour later", t.count(), now_->count()));
 }
 
 void EventEmulator::Pixels::step(core::Time t, const core::Image<float>& luminance_lux,
@@ -273,8 +270,7 @@ void EventEmulator::Pixels::mark_special(std::uint32_t begin, std::uint32_t end)
     before_.crossed[resting_[next_resting_] - begin] = 1;
 }
 
-bool EventEmulator::Pixels::takes_place(const Candidate& candidate,
-                                        std::uint32_t in_block) const {
+bool EventEmulator::Pixels::takes_place(const Candidate& candidate, std::uint32_t in_block) const {
   if (candidate.kind == Candidate::hot) return true;
   const double from = before_.intensity[in_block];
   const double intensity = from + (intensity_[candidate.pixel] - from) * candidate.s;
@@ -309,8 +305,8 @@ void EventEmulator::Pixels::walk(std::uint32_t p, std::uint32_t in_block) {
 
 /// Fires what the signal and the leak give in [from, to]; returns from when on the
 /// pixel is awake, at least `to`.
-double EventEmulator::Pixels::fire_crossings(std::uint32_t p, ResidualCourse& course,
-                                             double from, double to) {
+double EventEmulator::Pixels::fire_crossings(std::uint32_t p, ResidualCourse& course, double from,
+                                             double to) {
   while (from < to) {
     const double residual = course.residual(to);
     const bool on = residual >= threshold_on[p];
@@ -325,8 +321,8 @@ double EventEmulator::Pixels::fire_crossings(std::uint32_t p, ResidualCourse& co
 }
 
 /// One event at `s`, with the residual at `level`; returns when the pixel is awake again.
-double EventEmulator::Pixels::fire(std::uint32_t p, ResidualCourse& course, double s,
-                                   double level, bool on) {
+double EventEmulator::Pixels::fire(std::uint32_t p, ResidualCourse& course, double s, double level,
+                                   bool on) {
   // The first whole microsecond not before it, so that it lies in (begin, end].
   const double offset_us = std::clamp(std::ceil(s * dt_us_), 1.0, dt_us_);
   fired_.push_back({static_cast<std::uint32_t>(offset_us), p & 0x7fffffffu, on});
@@ -378,8 +374,6 @@ const EmulatorCounts& EventEmulator::counts() const { return pixels_->counts; }
 
 std::span<const float> EventEmulator::thresholds_on_log() const { return pixels_->threshold_on; }
 
-std::span<const float> EventEmulator::thresholds_off_log() const {
-  return pixels_->threshold_off;
-}
+std::span<const float> EventEmulator::thresholds_off_log() const { return pixels_->threshold_off; }
 
 }  // namespace nightjar::sim

@@ -95,8 +95,8 @@ std::vector<float> draw_thresholds_log(double mean_log, double sigma_log, std::s
                                        core::Random random) {
   std::vector<float> thresholds(pixels);
   for (float& threshold : thresholds)
-    threshold = static_cast<float>(
-        std::max(kLeastThreshold, mean_log + sigma_log * core::normal(random)));
+    threshold =
+        static_cast<float>(std::max(kLeastThreshold, mean_log + sigma_log * core::normal(random)));
   return thresholds;
 }
 
@@ -107,8 +107,7 @@ double leak_deviation(std::uint64_t key, std::uint32_t pixel, std::uint32_t n) {
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
   z ^= z >> 31;
-  const std::uint64_t sum =
-      (z & 0xffff) + ((z >> 16) & 0xffff) + ((z >> 32) & 0xffff) + (z >> 48);
+  const std::uint64_t sum = (z & 0xffff) + ((z >> 16) & 0xffff) + ((z >> 32) & 0xffff) + (z >> 48);
   return (static_cast<double>(sum) - 4 * 32767.5) / (65536 * 0.57735026918962576);
 }
 

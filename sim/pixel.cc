@@ -5,8 +5,7 @@
 
 namespace nightjar::sim {
 
-ResidualCourse::ResidualCourse(double change, double leak, double lag, double residual,
-                               double rate)
+ResidualCourse::ResidualCourse(double change, double leak, double lag, double residual, double rate)
     : slope_(change + leak),
       // d lag/ds = -rate lag - change, so lag(s) = bend exp(-rate s) - change/rate.
       bend_(rate > 0 ? lag + change / rate : 0),

@@ -84,15 +84,13 @@ template <bool kLowPass>
 }
 
 template <bool kLowPass>
-std::uint32_t advance_plain(const KernelStep& step, const KernelBlock& block,
-                            std::size_t count) {
+std::uint32_t advance_plain(const KernelStep& step, const KernelBlock& block, std::size_t count) {
   return advance_body<kLowPass>(step, block, count);
 }
 
 #if defined(__x86_64__)
 template <bool kLowPass>
-[[gnu::target("avx2")]] std::uint32_t advance_avx2(const KernelStep& step,
-                                                   const KernelBlock& block,
+[[gnu::target("avx2")]] std::uint32_t advance_avx2(const KernelStep& step, const KernelBlock& block,
                                                    std::size_t count) {
   return advance_body<kLowPass>(step, block, count);
 }
@@ -118,8 +116,7 @@ std::vector<KernelVariant> kernel_variants() {
   return variants;
 }
 
-std::uint32_t advance_pixels(const KernelStep& step, const KernelBlock& block,
-                             std::size_t count) {
+std::uint32_t advance_pixels(const KernelStep& step, const KernelBlock& block, std::size_t count) {
   static const KernelVariant best = kernel_variants().back();
   return (step.low_pass ? best.with_low_pass : best.without_low_pass)(step, block, count);
 }
@@ -143,8 +140,7 @@ void set_step(KernelStep& step, const PixelConfig& config, double dt_s) {
   step.decay = static_cast<float>(rate_per_intensity(config) * dt_s / 2);
 }
 
-std::uint32_t settle_pixels(const KernelStep& step, const KernelBlock& block,
-                            std::size_t count) {
+std::uint32_t settle_pixels(const KernelStep& step, const KernelBlock& block, std::size_t count) {
   std::uint32_t bad = 0;
   for (std::size_t i = 0; i < count; ++i) {
     block.intensity[i] = clean_intensity(block.luminance_lux[i], step.scale, 0.0f, bad);

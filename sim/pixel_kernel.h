@@ -10,11 +10,11 @@ namespace nightjar::sim {
 
 /// The constants of one dense pass. Intensity is on v2e's scale (white = 255).
 struct KernelStep {
-  float scale = 1;      ///< Intensity per lux.
-  float knee = 20;      ///< Linear up to here; -1 = logarithm only.
-  float linear = 0;     ///< Log intensity per intensity below the knee.
+  float scale = 1;   ///< Intensity per lux.
+  float knee = 20;   ///< Linear up to here; -1 = logarithm only.
+  float linear = 0;  ///< Log intensity per intensity below the knee.
   bool low_pass = true;
-  float decay = 0;      ///< k dt per unit of (intensity + 20) summed over both ends.
+  float decay = 0;  ///< k dt per unit of (intensity + 20) summed over both ends.
   float dt_s = 0;
 };
 
@@ -51,8 +51,7 @@ double rate_per_intensity(const PixelConfig& config);
 /// over the step, the photoreceptor follows it exactly at the mean of its rate
 /// constants at both ends, the leak is added. Returns how many inputs were corrected.
 /// Every instruction set gives the same bits.
-std::uint32_t advance_pixels(const KernelStep& step, const KernelBlock& block,
-                             std::size_t count);
+std::uint32_t advance_pixels(const KernelStep& step, const KernelBlock& block, std::size_t count);
 
 /// advance_pixels for one instruction set.
 struct KernelVariant {
@@ -67,7 +66,6 @@ std::vector<KernelVariant> kernel_variants();
 
 /// Starts `count` pixels, settled on the input; the residual stays as it is. Returns how
 /// many inputs were corrected (NaN and infinity to 0).
-std::uint32_t settle_pixels(const KernelStep& step, const KernelBlock& block,
-                            std::size_t count);
+std::uint32_t settle_pixels(const KernelStep& step, const KernelBlock& block, std::size_t count);
 
 }  // namespace nightjar::sim

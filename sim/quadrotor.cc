@@ -1,7 +1,7 @@
 #include "sim/quadrotor.h"
 
-#include <Eigen/LU>
 #include <mujoco/mujoco.h>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,9 @@
 namespace nightjar::sim {
 
 Quadrotor::Quadrotor(const QuadrotorConfig& config, const Scene& scene)
-    : config_(config), body_(scene.id(mjOBJ_BODY, "uav")), mass_kg_(scene.model()->body_mass[body_]) {
+    : config_(config),
+      body_(scene.id(mjOBJ_BODY, "uav")),
+      mass_kg_(scene.model()->body_mass[body_]) {
   const mjModel& model = *scene.model();
   const mjtNum* inertia = model.body_inertia + 3 * body_;
   inertia_kg_m2_ = {inertia[0], inertia[1], inertia[2]};

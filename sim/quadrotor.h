@@ -39,9 +39,9 @@ class Quadrotor {
   std::array<int, kRotors> actuator_{};
   double mass_kg_;
   Eigen::Vector3d inertia_kg_m2_;
-  Eigen::Matrix4d wrench_from_thrusts_;   ///< rows: collective, torque x, y, z
+  Eigen::Matrix4d wrench_from_thrusts_;  ///< rows: collective, torque x, y, z
   Eigen::Matrix4d thrusts_from_wrench_;
-  std::array<double, kRotors> speed_{};   ///< of full speed, 0 to 1
+  std::array<double, kRotors> speed_{};  ///< of full speed, 0 to 1
 };
 
 }  // namespace nightjar::sim

@@ -12,8 +12,8 @@ namespace nightjar::sim {
 
 struct ReadoutCounts {
   std::uint64_t read = 0;
-  std::uint64_t lost = 0;    ///< Came while the queue was full.
-  core::Time max_delay{};    ///< From the pixel's request to its readout.
+  std::uint64_t lost = 0;  ///< Came while the queue was full.
+  core::Time max_delay{};  ///< From the pixel's request to its readout.
 };
 
 /// The row arbiter between pixels and host. One event takes 1/max_event_rate_hz.
@@ -46,9 +46,9 @@ class Readout {
   std::int64_t free_ps_ = 0;  ///< When the arbiter can read the next event.
   core::Time until_{INT64_MIN};
   int waiting_ = 0;
-  int turn_left_ = 0;                            ///< Events left of the front row's turn.
-  std::deque<std::uint16_t> asking_rows_;        ///< Front has its turn.
-  std::vector<std::deque<core::Event>> rows_;    ///< What waits in each row.
+  int turn_left_ = 0;                          ///< Events left of the front row's turn.
+  std::deque<std::uint16_t> asking_rows_;      ///< Front has its turn.
+  std::vector<std::deque<core::Event>> rows_;  ///< What waits in each row.
   ReadoutCounts counts_;
 };
 

@@ -5,8 +5,8 @@
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <cmath>
+#include <cstdlib>
 #include <stdexcept>
 
 namespace nightjar::sim {
@@ -50,10 +50,9 @@ struct Renderer::Gl {
 
   void target(core::Resolution size) {
     rgba.resize(static_cast<std::size_t>(kChannels * size.pixels()));
-    if (OSMesaMakeCurrent(context, rgba.data(), GL_FLOAT, size.width_px, size.height_px) !=
-        GL_TRUE)
-      throw std::runtime_error(fmt::format("OSMesa cannot draw {}x{} floats", size.width_px,
-                                           size.height_px));
+    if (OSMesaMakeCurrent(context, rgba.data(), GL_FLOAT, size.width_px, size.height_px) != GL_TRUE)
+      throw std::runtime_error(
+          fmt::format("OSMesa cannot draw {}x{} floats", size.width_px, size.height_px));
     OSMesaPixelStore(OSMESA_Y_UP, 0);  // top row first
   }
 

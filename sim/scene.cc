@@ -89,11 +89,12 @@ Eigen::Vector3d Scene::velocity_at(int body, const Eigen::Vector3d& p_world) con
 void Scene::place(const std::string& free_joint, const Eigen::Isometry3d& T) {
   const int joint = id(mjOBJ_JOINT, free_joint);
   if (model_->jnt_type[joint] != mjJNT_FREE)
-    throw std::invalid_argument(fmt::format("{}: joint '{}' is not free", file_.string(), free_joint));
+    throw std::invalid_argument(
+        fmt::format("{}: joint '{}' is not free", file_.string(), free_joint));
   const Eigen::Quaterniond q(T.linear());
   mjtNum* qpos = data_->qpos + model_->jnt_qposadr[joint];
-  const std::array<double, 7> pose = {T.translation().x(), T.translation().y(), T.translation().z(),
-                                      q.w(), q.x(), q.y(), q.z()};
+  const std::array<double, 7> pose = {
+      T.translation().x(), T.translation().y(), T.translation().z(), q.w(), q.x(), q.y(), q.z()};
   mju_copy(qpos, pose.data(), 7);
   mju_zero(data_->qvel + model_->jnt_dofadr[joint], 6);
 }

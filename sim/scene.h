@@ -45,8 +45,12 @@ class Scene {
   void step();
 
  private:
-  struct DeleteModel { void operator()(mjModel_*) const; };
-  struct DeleteData { void operator()(mjData_*) const; };
+  struct DeleteModel {
+    void operator()(mjModel_*) const;
+  };
+  struct DeleteData {
+    void operator()(mjData_*) const;
+  };
 
   std::filesystem::path file_;
   std::unique_ptr<mjModel_, DeleteModel> model_;

@@ -68,8 +68,7 @@ PixelConfig interpolated_pixel(double lux) {
   const auto fraction = [at_lux](double from, double to) {
     return std::log(at_lux / from) / std::log(to / from);
   };
-  if (at_lux <= kDimLux)
-    return between(dim_pixel(), dark_pixel(), fraction(kDimLux, kDarkLux));
+  if (at_lux <= kDimLux) return between(dim_pixel(), dark_pixel(), fraction(kDimLux, kDarkLux));
   return between(dim_pixel(), bright_pixel(), fraction(kDimLux, kBrightLux));
 }
 

@@ -98,9 +98,9 @@ struct ApsConfig {
   /// A white surface in 1 lux for 1 s; 0.5 s of 10 lux fills the well to 80 %.
   double electrons_per_lux_s = 4000;
   double read_noise_e = 44;
-  double offset_fpn_e = 100;   ///< Frozen pixel offsets, standard deviation.
-  double gain_fpn = 0.01;      ///< Frozen pixel gains, relative standard deviation.
-  double black_level = 16;     ///< Code (0..255) of no light.
+  double offset_fpn_e = 100;  ///< Frozen pixel offsets, standard deviation.
+  double gain_fpn = 0.01;     ///< Frozen pixel gains, relative standard deviation.
+  double black_level = 16;    ///< Code (0..255) of no light.
 
   template <class Visitor>
   void visit(Visitor& v) {

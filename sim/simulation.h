@@ -14,8 +14,8 @@ namespace nightjar::sim {
 struct SimulationStep {
   core::EventPacket packet;
   std::vector<core::ApsFrame> frames;
-  core::VehicleState vehicle;   ///< the autopilot's estimate at packet.end
-  core::Truth truth;            ///< at packet.end
+  core::VehicleState vehicle;  ///< the autopilot's estimate at packet.end
+  core::Truth truth;           ///< at packet.end
 };
 
 /// The world seen through the event camera, packet by packet.
@@ -27,7 +27,8 @@ class Simulation {
              const std::filesystem::path& model_file, double illuminance_lux, std::uint64_t seed);
 
   /// Flies under `setpoint` to the end of the next packet. A render comes as soon as
-  /// any point may have moved renderer.max_motion_px, in whole physics steps.
+  /// a point of floor or landing board may have moved renderer.max_motion_px, in whole
+  /// physics steps (docs/decisions/0002).
   SimulationStep advance(const core::AttitudeSetpoint& setpoint);
 
   const World& world() const { return world_; }

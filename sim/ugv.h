@@ -31,9 +31,9 @@ class Ugv {
 
   UgvConfig config_;
   int body_;
-  int wheel_left_, wheel_right_;       ///< actuators
+  int wheel_left_, wheel_right_;  ///< actuators
   double wheel_radius_m_, track_m_;
-  std::size_t leg_ = 0;                ///< from waypoint leg_ to leg_ + 1
+  std::size_t leg_ = 0;  ///< from waypoint leg_ to leg_ + 1
   bool finished_ = false;
   double speed_m_s_ = 0;
 };

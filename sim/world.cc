@@ -143,10 +143,9 @@ double World::image_motion_px_s() const {
   const double floor = fastest_motion_px_s(
       camera_model_, camera, 0.0, [](const Eigen::Vector3d&) { return Eigen::Vector3d::Zero(); });
   const double board_m = scene_.T_world_site(tag_site_).translation().z();
-  const double board =
-      fastest_motion_px_s(camera_model_, camera, board_m, [this](const Eigen::Vector3d& p) {
-        return scene_.velocity_at(ugv_body_, p);
-      });
+  const double board = fastest_motion_px_s(
+      camera_model_, camera, board_m,
+      [this](const Eigen::Vector3d& p) { return scene_.velocity_at(ugv_body_, p); });
   return std::max(floor, board);
 }
 

@@ -11,17 +11,17 @@ inline constexpr core::Choices<Median, 3> kMedianNames{
 
 /// The printed tag and how AprilTag looks for it.
 struct DetectorConfig {
-  int tag_id = 0;                   ///< Of family 36h11.
-  double tag_size_m = 0.24;         ///< Side of the black square, without the white border.
-  int max_hamming = 2;              ///< Corrected bits at most.
-  double min_decision_margin = 10;  ///< Grey levels between bits and their threshold.
-  Median median = Median::px3;      ///< First smoothing step.
-  double blur_sigma_px = 0.8;       ///< Gaussian blur after the median; 0: off.
-  double quad_decimate = 1;         ///< Quads are sought in a picture this much smaller.
-  bool refine_edges = true;         ///< Snap the quads' edges to the steepest gradient.
-  double decode_sharpening = 0.25;  ///< Laplacian weight when bits are read.
-  int min_white_black_diff = 5;     ///< Grey levels; less contrast counts as flat.
-  double max_line_fit_mse_px2 = 10; ///< Mean squared distance of edge points from their line.
+  int tag_id = 0;                    ///< Of family 36h11.
+  double tag_size_m = 0.24;          ///< Side of the black square, without the white border.
+  int max_hamming = 2;               ///< Corrected bits at most.
+  double min_decision_margin = 10;   ///< Grey levels between bits and their threshold.
+  Median median = Median::px3;       ///< First smoothing step.
+  double blur_sigma_px = 0.8;        ///< Gaussian blur after the median; 0: off.
+  double quad_decimate = 1;          ///< Quads are sought in a picture this much smaller.
+  bool refine_edges = true;          ///< Snap the quads' edges to the steepest gradient.
+  double decode_sharpening = 0.25;   ///< Laplacian weight when bits are read.
+  int min_white_black_diff = 5;      ///< Grey levels; less contrast counts as flat.
+  double max_line_fit_mse_px2 = 10;  ///< Mean squared distance of edge points from their line.
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -42,9 +42,9 @@ struct DetectorConfig {
 /// Where the detector looks while the filter knows about where the tag is.
 struct WindowConfig {
   bool enabled = true;
-  double margin_px = 24;              ///< Around the tag's predicted corners.
-  double sigmas = 3;                  ///< Of the predicted position, added to the margin.
-  int full_frame_after_misses = 3;    ///< Pictures without a used tag in the window.
+  double margin_px = 24;            ///< Around the tag's predicted corners.
+  double sigmas = 3;                ///< Of the predicted position, added to the margin.
+  int full_frame_after_misses = 3;  ///< Pictures without a used tag in the window.
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -60,11 +60,11 @@ struct MeasurementConfig {
   /// By how much the black square looks too small on each side: a black pixel answers
   /// slowly in the dark, so white spreads over black in a moving picture.
   double corner_inset_px = 0.4;
-  double corner_noise_px = 0.5;        ///< Per corner and axis.
-  double attitude_noise_rad = 0.01;    ///< Of the UAV's attitude: acts times the range.
-  double position_noise_m = 0.01;      ///< Of the UAV's own position, per axis.
-  double heading_noise_rad = 0.02;     ///< Of the UAV's yaw and the tag's mounting.
-  double max_tag_tilt_rad = 0.5;       ///< Normals further from vertical are not believed.
+  double corner_noise_px = 0.5;      ///< Per corner and axis.
+  double attitude_noise_rad = 0.01;  ///< Of the UAV's attitude: acts times the range.
+  double position_noise_m = 0.01;    ///< Of the UAV's own position, per axis.
+  double heading_noise_rad = 0.02;   ///< Of the UAV's yaw and the tag's mounting.
+  double max_tag_tilt_rad = 0.5;     ///< Normals further from vertical are not believed.
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -82,14 +82,14 @@ struct MeasurementConfig {
 struct FilterConfig {
   double speed_walk_m_s = 0.15;
   double turn_rate_walk_rad_s = 0.4;
-  double slip_walk_m = 0.01;              ///< Sideways.
+  double slip_walk_m = 0.01;  ///< Sideways.
   double height_walk_m = 0.01;
   double initial_speed_sigma_m_s = 0.5;
   double initial_turn_rate_sigma_rad_s = 0.4;
-  double gate_chi2 = 18.5;                ///< 4 degrees of freedom, 99.9 %.
-  int confirm_fixes = 3;                  ///< Accepted in a row before the estimate is valid.
-  int restart_after_gated = 5;            ///< Gated in a row before starting anew.
-  double coast_timeout_s = 4;             ///< Without a fix, then the estimate is dropped.
+  double gate_chi2 = 18.5;      ///< 4 degrees of freedom, 99.9 %.
+  int confirm_fixes = 3;        ///< Accepted in a row before the estimate is valid.
+  int restart_after_gated = 5;  ///< Gated in a row before starting anew.
+  double coast_timeout_s = 4;   ///< Without a fix, then the estimate is dropped.
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -109,30 +109,30 @@ struct FilterConfig {
 /// When the mission goes from one phase to the next, and what it flies in each.
 /// Heights are of the UAV's body origin above the tag unless said otherwise.
 struct MissionConfig {
-  double search_height_m = 2.0;          ///< Above the last known tag, or world zero.
-  double search_hold_s = 3.0;            ///< Waits this long before it flies the spiral.
-  double search_speed_m_s = 0.5;         ///< Along the spiral.
-  double search_pitch_m = 0.6;           ///< Between two rounds of the spiral.
-  double search_radius_m = 3.0;          ///< Largest radius.
+  double search_height_m = 2.0;   ///< Above the last known tag, or world zero.
+  double search_hold_s = 3.0;     ///< Waits this long before it flies the spiral.
+  double search_speed_m_s = 0.5;  ///< Along the spiral.
+  double search_pitch_m = 0.6;    ///< Between two rounds of the spiral.
+  double search_radius_m = 3.0;   ///< Largest radius.
   double track_height_m = 1.5;
-  double land_after_s = 40;              ///< Mission time when landing is allowed.
-  double align_radius_m = 0.15;          ///< Horizontal error that lets the descent begin,
-  double align_speed_m_s = 0.25;         ///< relative horizontal speed, too,
-  double align_hold_s = 0.5;             ///< both held for this long.
-  double tag_fresh_s = 0.25;             ///< A tag this recent counts as seen.
-  double lost_after_s = 1.5;             ///< Track and descend coast this long without a tag.
+  double land_after_s = 40;       ///< Mission time when landing is allowed.
+  double align_radius_m = 0.15;   ///< Horizontal error that lets the descent begin,
+  double align_speed_m_s = 0.25;  ///< relative horizontal speed, too,
+  double align_hold_s = 0.5;      ///< both held for this long.
+  double tag_fresh_s = 0.25;      ///< A tag this recent counts as seen.
+  double lost_after_s = 1.5;      ///< Track and descend coast this long without a tag.
   double climb_speed_m_s = 0.4;
   double descend_speed_m_s = 0.25;
-  double cone_radius_m = 0.06;           ///< Descends while the horizontal error is below
-  double cone_slope = 0.12;              ///< cone_radius_m + cone_slope * height.
-  double commit_height_m = 0.40;         ///< Below it nothing but a timeout stops the landing.
-  double commit_radius_m = 0.08;         ///< Horizontal error allowed when committing.
+  double cone_radius_m = 0.06;    ///< Descends while the horizontal error is below
+  double cone_slope = 0.12;       ///< cone_radius_m + cone_slope * height.
+  double commit_height_m = 0.40;  ///< Below it nothing but a timeout stops the landing.
+  double commit_radius_m = 0.08;  ///< Horizontal error allowed when committing.
   double land_speed_m_s = 0.5;
-  double land_timeout_s = 3.5;             ///< Without touchdown: gives up and climbs.
-  double stand_height_m = 0.10;          ///< Body origin above the tag when it stands on it.
-  double touchdown_reach_m = 0.06;       ///< Height above stand_height_m that may be contact.
-  double touchdown_speed_m_s = 0.08;     ///< Vertical speed that counts as none.
-  double touchdown_hold_s = 0.15;        ///< Contact must last this long.
+  double land_timeout_s = 3.5;        ///< Without touchdown: gives up and climbs.
+  double stand_height_m = 0.10;       ///< Body origin above the tag when it stands on it.
+  double touchdown_reach_m = 0.06;    ///< Height above stand_height_m that may be contact.
+  double touchdown_speed_m_s = 0.08;  ///< Vertical speed that counts as none.
+  double touchdown_hold_s = 0.15;     ///< Contact must last this long.
 
   template <class Visitor>
   void visit(Visitor& v) {
@@ -166,19 +166,19 @@ struct MissionConfig {
 /// Cascade from position to attitude, and the dither that keeps edges moving
 /// over the event pixels.
 struct ControllerConfig {
-  double position_gain_hz = 1.2;           ///< m/s per m.
-  double velocity_gain_hz = 2.5;           ///< m/s^2 per m/s.
-  double velocity_integral_hz2 = 1.2;      ///< m/s^2 per m.
+  double position_gain_hz = 1.2;       ///< m/s per m.
+  double velocity_gain_hz = 2.5;       ///< m/s^2 per m/s.
+  double velocity_integral_hz2 = 1.2;  ///< m/s^2 per m.
   double max_integral_m_s2 = 1.5;
-  double max_speed_m_s = 2.0;              ///< Horizontal correction, on top of feed-forward.
-  double max_climb_m_s = 1.0;              ///< Vertical correction, up or down.
+  double max_speed_m_s = 2.0;  ///< Horizontal correction, on top of feed-forward.
+  double max_climb_m_s = 1.0;  ///< Vertical correction, up or down.
   double max_tilt_deg = 25;
   double min_thrust_m_s2 = 3;
   double max_thrust_m_s2 = 18;
   double max_yaw_rate_rad_s = 1.0;
-  double dither_tilt_deg = 1.5;            ///< Half-angle of the cone; 0: off.
+  double dither_tilt_deg = 1.5;  ///< Half-angle of the cone; 0: off.
   double dither_rate_hz = 0.8;
-  double dither_taper_height_m = 0.5;      ///< Below it the cone shrinks in proportion.
+  double dither_taper_height_m = 0.5;  ///< Below it the cone shrinks in proportion.
 
   template <class Visitor>
   void visit(Visitor& v) {

@@ -40,8 +40,7 @@ Controller::Controller(const ControllerConfig& config) : config_(config) {
   core::check_config(config_, "controller");
 }
 
-core::AttitudeSetpoint Controller::step(const core::VehicleState& vehicle,
-                                        const FlightGoal& goal) {
+core::AttitudeSetpoint Controller::step(const core::VehicleState& vehicle, const FlightGoal& goal) {
   if (!last_step_) {
     last_step_ = vehicle.t;
     heading_rad_ = heading_of(vehicle.q_world_body);
@@ -57,8 +56,7 @@ core::AttitudeSetpoint Controller::step(const core::VehicleState& vehicle,
   heading_rad_ = heading(goal, dt_s);
   const Eigen::Vector3d f = thrust(vehicle, goal, dt_s);
   setpoint.thrust_m_s2 = f.norm();
-  setpoint.q_world_body =
-      attitude(f, heading_rad_) * dither(vehicle.t, goal.height_above_tag_m);
+  setpoint.q_world_body = attitude(f, heading_rad_) * dither(vehicle.t, goal.height_above_tag_m);
   return setpoint;
 }
 
@@ -68,8 +66,8 @@ Eigen::Quaterniond Controller::dither(core::Time t,
   if (height_above_tag_m && *height_above_tag_m < config_.dither_taper_height_m)
     tilt_rad *= std::max(0.0, *height_above_tag_m) / config_.dither_taper_height_m;
   const double phase_rad = 2 * std::numbers::pi * config_.dither_rate_hz * core::seconds(t);
-  return Eigen::Quaterniond(Eigen::AngleAxisd(
-      tilt_rad, Eigen::Vector3d(std::cos(phase_rad), std::sin(phase_rad), 0)));
+  return Eigen::Quaterniond(
+      Eigen::AngleAxisd(tilt_rad, Eigen::Vector3d(std::cos(phase_rad), std::sin(phase_rad), 0)));
 }
 
 /// Mass-specific thrust in world axes, within the limits of tilt and motors.

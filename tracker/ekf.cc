@@ -18,9 +18,7 @@ constexpr double kLongestStep_s = 0.02;
 double sinc(double u) { return std::abs(u) < 1e-4 ? 1 - u * u / 6 : std::sin(u) / u; }
 
 /// d sinc / d u.
-double sinc_slope(double u) {
-  return std::abs(u) < 1e-4 ? -u / 3 : (std::cos(u) - sinc(u)) / u;
-}
+double sinc_slope(double u) { return std::abs(u) < 1e-4 ? -u / 3 : (std::cos(u) - sinc(u)) / u; }
 
 void predict_step(TargetState& x, TargetCovariance& P, double dt_s, const FilterConfig& config) {
   const TargetCovariance F = ctrv_jacobian(x, dt_s);
@@ -114,11 +112,9 @@ FixResult TargetEkf::update(std::span<const TagFix> alternatives) {
     start(alternatives);
     return FixResult::started;
   }
-  const auto nearest =
-      std::min_element(alternatives.begin(), alternatives.end(),
-                       [this](const TagFix& a, const TagFix& b) {
-                         return mahalanobis2(a) < mahalanobis2(b);
-                       });
+  const auto nearest = std::min_element(
+      alternatives.begin(), alternatives.end(),
+      [this](const TagFix& a, const TagFix& b) { return mahalanobis2(a) < mahalanobis2(b); });
   nis_ = mahalanobis2(*nearest);
   if (nis_ <= config_.gate_chi2) {
     fuse(*nearest);
@@ -140,8 +136,8 @@ core::TargetEstimate TargetEkf::estimate_at(core::Time t) const {
   const TargetState& x = copy.x_;
   estimate.valid = fixes_ >= config_.confirm_fixes;
   estimate.p_world_tag_m = x.head<3>();
-  estimate.v_world_tag_m_s = {x[kSpeed] * std::cos(x[kHeading]),
-                              x[kSpeed] * std::sin(x[kHeading]), 0};
+  estimate.v_world_tag_m_s = {x[kSpeed] * std::cos(x[kHeading]), x[kSpeed] * std::sin(x[kHeading]),
+                              0};
   estimate.heading_rad = x[kHeading];
   estimate.turn_rate_rad_s = x[kTurnRate];
   estimate.sigma_p_m = copy.P_.diagonal().head<3>().cwiseSqrt();
@@ -175,8 +171,7 @@ void TargetEkf::start(std::span<const TagFix> alternatives) {
 // H = [I4 0]; covariance in Joseph's form, which stays symmetric and positive.
 void TargetEkf::fuse(const TagFix& fix) {
   const Eigen::Matrix4d S = P_.topLeftCorner<4, 4>() + fix.R;
-  const Eigen::Matrix<double, 6, 4> K =
-      S.ldlt().solve(P_.leftCols<4>().transpose()).transpose();
+  const Eigen::Matrix<double, 6, 4> K = S.ldlt().solve(P_.leftCols<4>().transpose()).transpose();
   TargetCovariance I_KH = TargetCovariance::Identity();
   I_KH.leftCols<4>() -= K;
   x_ += K * innovation(fix, x_);

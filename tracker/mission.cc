@@ -51,9 +51,9 @@ struct Mission::Relation {
   bool valid;
   double tag_age_s;
   double vehicle_z_m;
-  double height_m;   // above the tag
+  double height_m;  // above the tag
   double climb_m_s;
-  double error_m;    // horizontal
+  double error_m;  // horizontal
   double drift_m_s;
 };
 
@@ -212,11 +212,10 @@ double Mission::height_rate_m_s(const Relation& now) const {
       return std::clamp(config_.track_height_m - goal_height_m_, -config_.descend_speed_m_s,
                         config_.climb_speed_m_s);
     case MissionPhase::descend: {
-      const bool in_cone =
-          now.error_m <= config_.cone_radius_m + config_.cone_slope * now.height_m;
+      const bool in_cone = now.error_m <= config_.cone_radius_m + config_.cone_slope * now.height_m;
       const bool above = goal_height_m_ > kHoldBelowCommit * config_.commit_height_m;
       return in_cone && above && now.tag_age_s <= config_.tag_fresh_s ? -config_.descend_speed_m_s
-                                                                       : 0;
+                                                                      : 0;
     }
     case MissionPhase::land:
       return goal_height_m_ > config_.stand_height_m - kPressDepth_m ? -config_.land_speed_m_s : 0;

@@ -16,7 +16,7 @@ struct FlightGoal {
   Eigen::Vector3d p_world_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d v_world_m_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d a_world_m_s2 = Eigen::Vector3d::Zero();
-  std::optional<double> heading_rad;      ///< Nothing: keep the present heading.
+  std::optional<double> heading_rad;         ///< Nothing: keep the present heading.
   std::optional<double> height_above_tag_m;  ///< Of the vehicle; nothing if unknown.
   bool motors_on = true;
 };
@@ -69,8 +69,8 @@ class Mission {
   std::optional<core::Time> begun_;
   core::Time last_step_{};
   core::Time phase_begun_{};
-  std::optional<core::Time> held_since_;  // the condition that ends the phase
-  double goal_height_m_ = 0;              // above the tag, while following
+  std::optional<core::Time> held_since_;                       // the condition that ends the phase
+  double goal_height_m_ = 0;                                   // above the tag, while following
   Eigen::Vector3d search_centre_m_ = Eigen::Vector3d::Zero();  // on the ground or the board
   double search_z_m_ = 0;
   double spiral_rad_ = 0;

@@ -13,9 +13,8 @@ core::VehicleState extrapolate(const core::VehicleState& state, double dt_s) {
   next.p_world_body_m += state.v_world_body_m_s * dt_s;
   const double rate_rad_s = state.omega_body_rad_s.norm();
   if (rate_rad_s > 0)
-    next.q_world_body =
-        state.q_world_body *
-        Eigen::AngleAxisd(rate_rad_s * dt_s, state.omega_body_rad_s / rate_rad_s);
+    next.q_world_body = state.q_world_body *
+                        Eigen::AngleAxisd(rate_rad_s * dt_s, state.omega_body_rad_s / rate_rad_s);
   return next;
 }
 
@@ -28,8 +27,7 @@ void StateHistory::add(const core::VehicleState& state) {
 }
 
 std::optional<core::VehicleState> StateHistory::at(core::Time t) const {
-  if (states_.empty() || t < states_.front().t || t > states_.back().t + span_)
-    return std::nullopt;
+  if (states_.empty() || t < states_.front().t || t > states_.back().t + span_) return std::nullopt;
   const auto after = std::lower_bound(
       states_.begin(), states_.end(), t,
       [](const core::VehicleState& state, core::Time time) { return state.t < time; });

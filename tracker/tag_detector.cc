@@ -45,8 +45,8 @@ cv::Rect on_tiles(const Window& window, core::Resolution size) {
 
 bool is_whole(const apriltag_detection_t& found, const cv::Rect& part) {
   return std::all_of(std::begin(found.p), std::end(found.p), [&](const double(&corner)[2]) {
-    return corner[0] >= kRim_px && corner[0] <= part.width - kRim_px &&
-           corner[1] >= kRim_px && corner[1] <= part.height - kRim_px;
+    return corner[0] >= kRim_px && corner[0] <= part.width - kRim_px && corner[1] >= kRim_px &&
+           corner[1] <= part.height - kRim_px;
   });
 }
 

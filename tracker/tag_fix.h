@@ -12,10 +12,10 @@ namespace nightjar::tracker {
 
 /// Where a tag was in the world, as one picture and the UAV's own state say.
 struct TagFix {
-  core::Time t{};                                       ///< When the world looked like that.
-  Eigen::Vector4d z = Eigen::Vector4d::Zero();          ///< x, y, z (m), heading (rad).
-  Eigen::Matrix4d R = Eigen::Matrix4d::Identity();      ///< Covariance of z.
-  double tilt_rad = 0;                                  ///< Of the tag's normal from vertical.
+  core::Time t{};                                   ///< When the world looked like that.
+  Eigen::Vector4d z = Eigen::Vector4d::Zero();      ///< x, y, z (m), heading (rad).
+  Eigen::Matrix4d R = Eigen::Matrix4d::Identity();  ///< Covariance of z.
+  double tilt_rad = 0;                              ///< Of the tag's normal from vertical.
 };
 
 /// The fix that follows from a pose solution for a camera at T_world_camera.

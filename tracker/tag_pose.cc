@@ -18,9 +18,9 @@ using Pixels = std::array<Eigen::Vector2d, 4>;
 using Residual = Eigen::Matrix<double, 8, 1>;
 using Jacobian = Eigen::Matrix<double, 8, 6>;
 
-constexpr int kIterations = 50;        // 5 to 10 are the rule; a flat minimum takes more
-constexpr double kConverged = 1e-10;   // rad and, relative to the range, m
-constexpr double kSamePose_rad = 0.01; // nearer solutions are one
+constexpr int kIterations = 50;         // 5 to 10 are the rule; a flat minimum takes more
+constexpr double kConverged = 1e-10;    // rad and, relative to the range, m
+constexpr double kSamePose_rad = 0.01;  // nearer solutions are one
 
 /// Convex and seen from its face: with y down, all turns go to the left.
 bool is_front_of_square(const Pixels& p) {
@@ -93,8 +93,7 @@ bool linearise(const Eigen::Isometry3d& T, const Pixels& pixels, const Corners& 
 Eigen::Isometry3d moved(const Eigen::Isometry3d& T, const Eigen::Matrix<double, 6, 1>& step) {
   Eigen::Isometry3d result = T;
   const double angle = step.head<3>().norm();
-  if (angle > 0)
-    result.linear() = T.linear() * Eigen::AngleAxisd(angle, step.head<3>() / angle);
+  if (angle > 0) result.linear() = T.linear() * Eigen::AngleAxisd(angle, step.head<3>() / angle);
   result.translation() += step.tail<3>();
   return result;
 }
@@ -141,8 +140,7 @@ std::vector<TagPoseSolution> tag_poses(const core::TagDetection& detection,
   if (!start) return {};
   const auto first = refined(*start, detection.corner_px, corners, camera);
   if (!first) return {};
-  const auto second =
-      refined(mirrored(first->T_camera_tag), detection.corner_px, corners, camera);
+  const auto second = refined(mirrored(first->T_camera_tag), detection.corner_px, corners, camera);
   const auto apart = [&] {
     return Eigen::AngleAxisd(first->T_camera_tag.linear().transpose() *
                              second->T_camera_tag.linear())

@@ -74,8 +74,7 @@ TrackerOutput Tracker::process(const core::Picture& picture) {
   output.estimate = estimate_at(picture.t);
   const FlightGoal goal = mission_.step(*vehicle, output.estimate);
   const double ahead_s = config_.command_delay_ms * 1e-3;
-  output.setpoint =
-      controller_.step(extrapolate(*vehicle, ahead_s), extrapolate(goal, ahead_s));
+  output.setpoint = controller_.step(extrapolate(*vehicle, ahead_s), extrapolate(goal, ahead_s));
   output.phase = mission_.phase();
   output.transitions = mission_.take_transitions();
   return output;
@@ -117,8 +116,8 @@ FixResult Tracker::fuse(const std::vector<core::TagDetection>& detections, core:
     if (detection.id != config_.detector.tag_id) continue;
     const core::TagDetection tag = widened(detection, config_.measurement.corner_inset_px);
     for (const TagPoseSolution& pose : tag_poses(tag, camera_, tag_size_m))
-      if (const auto fix = tag_fix(t, pose, T_world_camera, camera_, tag_size_m,
-                                   config_.measurement))
+      if (const auto fix =
+              tag_fix(t, pose, T_world_camera, camera_, tag_size_m, config_.measurement))
         alternatives.push_back(*fix);
   }
   const FixResult result = ekf_.update(alternatives);

@@ -8,8 +8,7 @@ namespace nightjar::core {
 namespace {
 
 constexpr Resolution kSensor{346, 260};
-const CameraModel kCamera =
-    CameraModel::from_fovy(kSensor, 47.3 * std::numbers::pi / 180.0);
+const CameraModel kCamera = CameraModel::from_fovy(kSensor, 47.3 * std::numbers::pi / 180.0);
 
 TEST(CameraModel, FieldOfViewGivesTheStatedFocalLength) {
   // 130 / tan(23.65 deg) = 296.85.

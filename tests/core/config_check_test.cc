@@ -9,7 +9,10 @@ namespace {
 
 struct Inner {
   double rate_hz = 1.0;
-  template <class V> void visit(V& v) { v.field("rate_hz", rate_hz, 0.0, 10.0); }
+  template <class V>
+  void visit(V& v) {
+    v.field("rate_hz", rate_hz, 0.0, 10.0);
+  }
 };
 
 struct Outer {
@@ -17,7 +20,8 @@ struct Outer {
   std::array<double, 2> place_m = {0.0, 0.0};
   Inner inner;
   std::vector<Inner> many = {Inner{}};
-  template <class V> void visit(V& v) {
+  template <class V>
+  void visit(V& v) {
     v.field("count", count, 1, 5);
     v.field("place_m", place_m, -1.0, 1.0);
     v.section("inner", inner);

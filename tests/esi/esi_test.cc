@@ -25,7 +25,8 @@ int gray_at(Esi& esi, int x, int y, core::Time t) {
 int gray_of(double sum) { return static_cast<int>(std::lround(255.0 * (sum + 1.0) / 2.0)); }
 
 /// Algorithm 2 as it is printed, in doubles, on a map: the reference.
-core::Image<std::uint8_t> by_the_listing(const EsiConfig& c, const std::vector<core::Event>& events) {
+core::Image<std::uint8_t> by_the_listing(const EsiConfig& c,
+                                         const std::vector<core::Event>& events) {
   std::map<std::pair<int, int>, std::pair<double, double>> s_and_t;
   for (const core::Event& e : events) {
     auto& [s, t] = s_and_t[{e.x, e.y}];
@@ -63,8 +64,8 @@ TEST(Esi, HandWorkedSequence) {
   config.decay_rate_hz = 2.0;
   config.decay_power = 2.0;
   Esi esi(config, kSensor);
-  esi.process(std::vector<core::Event>{{100ms, 1, 1, true},    // 0.2 (1 - 0.2)^2 = 0.128
-                                       {200ms, 1, 1, true},    // 0.328 * 0.64 = 0.20992
+  esi.process(std::vector<core::Event>{{100ms, 1, 1, true},     // 0.2 (1 - 0.2)^2 = 0.128
+                                       {200ms, 1, 1, true},     // 0.328 * 0.64 = 0.20992
                                        {300ms, 1, 1, false}});  // 0.00992 * 0.64 = 0.0063488
   EXPECT_EQ(gray_at(esi, 1, 1, 300ms), gray_of(0.0063488));
   esi.process(std::vector<core::Event>{{400ms, 1, 1, true}});  // 0.2063488 * 0.64 = 0.13206

@@ -68,11 +68,10 @@ TEST_P(ReconstructorContract, RefusesTimeRunningBackwards) {
   EXPECT_THROW(a_->process(bad), std::invalid_argument);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    EveryVariant, ReconstructorContract,
-    testing::Values(Variant{"esi",
-                            [] { return std::make_unique<Esi>(EsiConfig{}, kSensor); }}),
-    [](const auto& variant) { return variant.param.name; });
+INSTANTIATE_TEST_SUITE_P(EveryVariant, ReconstructorContract,
+                         testing::Values(Variant{
+                             "esi", [] { return std::make_unique<Esi>(EsiConfig{}, kSensor); }}),
+                         [](const auto& variant) { return variant.param.name; });
 
 }  // namespace
 }  // namespace nightjar::esi

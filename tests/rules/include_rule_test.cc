@@ -122,9 +122,9 @@ TEST_F(IncludeCheckerTest, KeepsTruthFromTheLoopUnderTestHoweverFarAway) {
 TEST_F(IncludeCheckerTest, KeepsTruthFromTheNodesUnderTest) {
   const std::string reason = "a node under test may not see core/truth.h";
   write("msg/channels.h", "#include \"core/truth.h\"\n");
-  for (const std::string file : {"scenarios/tracker_node.h", "scenarios/tracker_node.cc",
-                                 "scenarios/reconstruction_node.h",
-                                 "scenarios/reconstruction_node.cc"}) {
+  for (const std::string file :
+       {"scenarios/tracker_node.h", "scenarios/tracker_node.cc", "scenarios/reconstruction_node.h",
+        "scenarios/reconstruction_node.cc"}) {
     EXPECT_THAT(check(file, "core/truth.h"), ElementsAre(reason));
     EXPECT_THAT(check(file, "msg/channels.h"), IsEmpty());  // all channels are declared there
   }

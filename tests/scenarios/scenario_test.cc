@@ -106,10 +106,8 @@ TEST_F(ScenarioTest, RefusesValuesThatDoNotFitEachOther) {
 
 TEST_F(ScenarioTest, TakesFramesAsFastAsTheWorldIsDrawn) {
   const std::string model = "model: models/arena.xml\n";
-  EXPECT_EQ(complaint(model + "sensor: {aps: {exposure_ms: 2, interval_ms: 5}}\n"),
-            "no complaint");
-  EXPECT_EQ(complaint(model + "sensor: {aps: {exposure_ms: 5, interval_ms: 4}}\n"),
-            "no complaint");
+  EXPECT_EQ(complaint(model + "sensor: {aps: {exposure_ms: 2, interval_ms: 5}}\n"), "no complaint");
+  EXPECT_EQ(complaint(model + "sensor: {aps: {exposure_ms: 5, interval_ms: 4}}\n"), "no complaint");
   // 5 lux want 0.5 s of exposure, 5000 lux 1 ms.
   EXPECT_EQ(complaint(model + "sensor: {aps: {interval_ms: 4}}\n"), "no complaint");
   EXPECT_NE(complaint(model + "illuminance_lux: 5000\nsensor: {aps: {interval_ms: 4}}\n"),

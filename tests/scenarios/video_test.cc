@@ -29,13 +29,11 @@ int frames(core::Time interval, core::Time end) {
 
 TEST(Video, RunsInRealTimeWhateverThePictureInterval) {
   EXPECT_EQ(frames(10ms, 840ms), 21);
-  EXPECT_EQ(frames(7ms, 840ms), 21);    // no divisor of 40 ms
-  EXPECT_EQ(frames(70ms, 840ms), 21);   // longer: frames are repeated
+  EXPECT_EQ(frames(7ms, 840ms), 21);   // no divisor of 40 ms
+  EXPECT_EQ(frames(70ms, 840ms), 21);  // longer: frames are repeated
 }
 
-TEST(Video, WithoutAnyFrameIsAnError) {
-  EXPECT_THROW(frames(10ms, 30ms), std::runtime_error);
-}
+TEST(Video, WithoutAnyFrameIsAnError) { EXPECT_THROW(frames(10ms, 30ms), std::runtime_error); }
 
 }  // namespace
 }  // namespace nightjar::scenarios

@@ -93,8 +93,7 @@ TEST(ApsSensor, motion_blurs_by_the_time_spent_on_each_pixel) {
   for (int t_ms = 0; t_ms <= 100; ++t_ms) {
     core::Image<float> image(kSize);
     for (int y = 0; y < kSize.height_px; ++y)
-      for (int x = 0; x < kSize.width_px; ++x)
-        image(x, y) = x < 10 + 0.4 * t_ms ? 5.0f : 0.0f;
+      for (int x = 0; x < kSize.width_px; ++x) image(x, y) = x < 10 + 0.4 * t_ms ? 5.0f : 0.0f;
     auto got = sensor.add(Time(t_ms * 1000), image);
     if (got) frame = std::move(got);
   }
@@ -123,7 +122,7 @@ TEST(ApsSensor, a_step_over_an_exposure_counts_only_what_falls_into_it) {
       means.push_back(statistics(frame->gray).mean);
   }
   ASSERT_EQ(means.size(), 2u);
-  EXPECT_NEAR(means[0], code(config, 50, 0.01), 0.6);   // as in the_mean_is_the_exposure
+  EXPECT_NEAR(means[0], code(config, 50, 0.01), 0.6);  // as in the_mean_is_the_exposure
   EXPECT_NEAR(means[1], code(config, 250, 0.01), 0.6);
 }
 

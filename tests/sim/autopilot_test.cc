@@ -87,8 +87,9 @@ TEST_F(AutopilotTest, EstimateIsTruthPlusItsStatedErrors) {
   for (int seed = 0; seed < kSeeds; ++seed) {
     Autopilot autopilot(config, quadrotor_, static_cast<std::uint64_t>(seed));
     autopilot.observe(scene_, core::Time(0), 0);
-    squares_m2 += (autopilot.state().p_world_body_m -
-                   scene_.T_world_body(quadrotor_.body()).translation()).squaredNorm();
+    squares_m2 +=
+        (autopilot.state().p_world_body_m - scene_.T_world_body(quadrotor_.body()).translation())
+            .squaredNorm();
     squares_rad2 += std::pow(autopilot.state().q_world_body.angularDistance(true_attitude()), 2);
   }
   const double degree = std::acos(-1.0) / 180;

@@ -30,14 +30,13 @@ using Scene = std::function<double(int x, int y, double t_s)>;
 core::Image<float> picture(core::Resolution size, const Scene& scene, double t_s) {
   core::Image<float> image(size);
   for (int y = 0; y < size.height_px; ++y)
-    for (int x = 0; x < size.width_px; ++x)
-      image(x, y) = static_cast<float>(scene(x, y, t_s));
+    for (int x = 0; x < size.width_px; ++x) image(x, y) = static_cast<float>(scene(x, y, t_s));
   return image;
 }
 
 /// Steps of `dt` from 0 to `end`; the events of all.
-std::vector<Event> run(EventEmulator& emulator, core::Resolution size, const Scene& scene,
-                       Time end, Time dt) {
+std::vector<Event> run(EventEmulator& emulator, core::Resolution size, const Scene& scene, Time end,
+                       Time dt) {
   std::vector<Event> events;
   for (Time t{}; t <= end; t += dt)
     emulator.step(t, picture(size, scene, core::seconds(t)), events);
@@ -130,11 +129,10 @@ std::vector<std::vector<ScalarEvent>> reference(const PixelConfig& config, core:
                                                 const EventEmulator& like) {
   std::vector<std::vector<ScalarEvent>> events(size.pixels());
   for (int p = 0; p < size.pixels(); ++p) {
-    ScalarPixel pixel(config, kWhiteLux, like.thresholds_on_log()[p],
-                      like.thresholds_off_log()[p]);
+    ScalarPixel pixel(config, kWhiteLux, like.thresholds_on_log()[p], like.thresholds_off_log()[p]);
     for (Time t{}; t <= end; t += dt) {
-      const auto lux = static_cast<float>(
-          scene(p % size.width_px, p / size.width_px, core::seconds(t)));
+      const auto lux =
+          static_cast<float>(scene(p % size.width_px, p / size.width_px, core::seconds(t)));
       if (t == Time{}) {
         pixel.start(0, lux);
         continue;
@@ -221,8 +219,7 @@ TEST(EventEmulator, result_hardly_depends_on_the_step) {
   for (const auto& [dt_us, mean_us, missing] :
        {std::tuple{500, 5.0, 0.001}, {2'000, 30.0, 0.005}, {8'000, 300.0, 0.02}}) {
     const std::vector<Event> events = events_at(dt_us);
-    EXPECT_NEAR(static_cast<double>(events.size()) / static_cast<double>(truth.size()), 1,
-                missing);
+    EXPECT_NEAR(static_cast<double>(events.size()) / static_cast<double>(truth.size()), 1, missing);
     // Every event has one of the same pixel and sign near it.
     std::map<std::tuple<int, int, bool>, std::vector<Time>> known;
     for (const Event& e : truth) known[{e.x, e.y, e.on}].push_back(e.t);
@@ -260,8 +257,7 @@ TEST(EventEmulator, low_pass_shrinks_a_sinusoid_as_the_closed_form_says) {
     const std::vector<Event> events =
         run(emulator, size, scene, core::from_seconds(kPeriods / hz), Time(1'000));
     const double amplitude = kAmplitude / std::hypot(1, omega / k);
-    const double per_swing =
-        static_cast<double>(events.size()) / (2.0 * kPeriods * size.width_px);
+    const double per_swing = static_cast<double>(events.size()) / (2.0 * kPeriods * size.width_px);
     // 100 lattices average to 5 * sqrt(1/12/100) = 0.15 at most; k itself swings by 8 %,
     // which moves the amplitude by about the square of that.
     EXPECT_NEAR(per_swing, 2 * amplitude / kThreshold - 1, 0.15 + 0.01 * per_swing) << hz;
@@ -286,8 +282,10 @@ TEST(EventEmulator, thresholds_are_recovered_from_the_events) {
     for (const Event& e : run(emulator, size, scene, Time(1'000'000), Time(5'000))) {
       ASSERT_EQ(e.on, on);
       auto& times = first_two[e.y * size.width_px + e.x];
-      if (times.first == Time{}) times.first = e.t;
-      else if (times.second == Time{}) times.second = e.t;
+      if (times.first == Time{})
+        times.first = e.t;
+      else if (times.second == Time{})
+        times.second = e.t;
     }
     const double mean = on ? config.threshold_on_log : config.threshold_off_log;
     const double sigma = on ? config.threshold_on_sigma_log : config.threshold_off_sigma_log;
@@ -328,8 +326,8 @@ TEST(EventEmulator, noise_has_no_comb_in_time) {
   const core::Resolution size{100, 50};
   EventEmulator emulator(config, size, kWhiteLux, 10);
   constexpr int kStepUs = 5'000, kBins = 100;
-  std::vector<double> offsets(kBins);   // of events after the begin of their step
-  std::vector<double> intervals(100);   // of 1 us, from event to event over the sensor
+  std::vector<double> offsets(kBins);  // of events after the begin of their step
+  std::vector<double> intervals(100);  // of 1 us, from event to event over the sensor
   Time last{};
   for (const Event& e : run(emulator, size, still(1), Time(2'000'000), Time(kStepUs))) {
     ++offsets[static_cast<std::size_t>((e.t.count() - 1) % kStepUs / (kStepUs / kBins))];
@@ -443,8 +441,7 @@ TEST(EventEmulator, switching_one_effect_off_leaves_the_draws_of_others) {
   const auto hot_events = run(without, size, still(2), Time(1'000'000), Time(5'000));
   ASSERT_GT(hot_events.size(), 100u);
   ASSERT_GT(with.counts().shot, 100u);
-  for (const Event& e : hot_events)
-    EXPECT_NE(std::ranges::find(all_events, e), all_events.end());
+  for (const Event& e : hot_events) EXPECT_NE(std::ranges::find(all_events, e), all_events.end());
   EXPECT_TRUE(std::ranges::equal(with.thresholds_off_log(), third.thresholds_off_log()));
 }
 
@@ -470,9 +467,8 @@ TEST(EventEmulator, events_lie_in_the_step_and_are_in_order) {
     t += Time(1 + static_cast<int>(9'000 * core::uniform01(random)));
     std::vector<Event> events;
     emulator.step(t, picture(size, edge, core::seconds(t) - 1), events);
-    EXPECT_TRUE(std::ranges::is_sorted(events, {}, [](const Event& e) {
-      return std::tuple(e.t, e.y, e.x);
-    }));
+    EXPECT_TRUE(std::ranges::is_sorted(events, {},
+                                       [](const Event& e) { return std::tuple(e.t, e.y, e.x); }));
     for (const Event& e : events) {
       EXPECT_GT(e.t, last);
       EXPECT_LE(e.t, t);
@@ -535,9 +531,9 @@ TEST(EventEmulator, wrong_input_is_refused_and_leaves_no_trace) {
                std::invalid_argument);
   EXPECT_THROW(emulator.step(Time(1'000), core::Image<float>(size, 2.0f), events),
                std::invalid_argument);
-  EXPECT_THROW(emulator.step(Time(1'000) + std::chrono::hours(2),
-                             core::Image<float>(size, 2.0f), events),
-               std::invalid_argument);
+  EXPECT_THROW(
+      emulator.step(Time(1'000) + std::chrono::hours(2), core::Image<float>(size, 2.0f), events),
+      std::invalid_argument);
   EXPECT_TRUE(events.empty());
   emulator.step(Time(2'000), core::Image<float>(size, 1.0f), events);
   EXPECT_TRUE(events.empty());

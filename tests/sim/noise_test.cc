@@ -133,8 +133,7 @@ TEST(HotPixels, more_of_them_leave_the_first_ones_as_they_were) {
   for (std::size_t i = 0; i < few.pixels.size(); ++i) {
     const auto it = std::ranges::find(many.pixels, few.pixels[i]);
     ASSERT_NE(it, many.pixels.end());
-    EXPECT_EQ(many.rates_hz[static_cast<std::size_t>(it - many.pixels.begin())],
-              few.rates_hz[i]);
+    EXPECT_EQ(many.rates_hz[static_cast<std::size_t>(it - many.pixels.begin())], few.rates_hz[i]);
   }
 }
 

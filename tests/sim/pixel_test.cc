@@ -22,11 +22,11 @@ struct Pixels {
     for (auto& array : floats) array.resize(count);
     crossed.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
-      floats[0][i] = static_cast<float>(5 * core::uniform01(random));        // luminance
-      floats[1][i] = static_cast<float>(255 * core::uniform01(random));      // intensity
+      floats[0][i] = static_cast<float>(5 * core::uniform01(random));    // luminance
+      floats[1][i] = static_cast<float>(255 * core::uniform01(random));  // intensity
       floats[2][i] = static_cast<float>(
           test::ScalarPixel::log_intensity(static_cast<double>(floats[1][i]), 20));
-      floats[3][i] = static_cast<float>(core::uniform01(random) - 0.5);      // lag
+      floats[3][i] = static_cast<float>(core::uniform01(random) - 0.5);  // lag
       floats[4][i] = static_cast<float>(0.2 * core::uniform01(random) - 0.1);
       floats[5][i] = floats[6][i] = 0.2f;
       floats[7][i] = 0.02f;
@@ -34,8 +34,19 @@ struct Pixels {
   }
   KernelBlock block(std::size_t from = 0) {
     const auto at = [&](std::size_t array) { return floats[array].data() + from; };
-    return {at(0), at(1), at(2), at(3), at(4),  at(5),  at(6),
-            at(7), at(8), at(9), at(10), at(11), crossed.data() + from};
+    return {at(0),
+            at(1),
+            at(2),
+            at(3),
+            at(4),
+            at(5),
+            at(6),
+            at(7),
+            at(8),
+            at(9),
+            at(10),
+            at(11),
+            crossed.data() + from};
   }
   std::array<std::vector<float>, 12> floats;
   std::vector<std::uint32_t> crossed;

@@ -48,8 +48,7 @@ TEST(Scene, PlacedBodyIsWhereItWasPut) {
 TEST(Scene, VelocityOfAPointIsThatOfARigidBody) {
   Scene scene(test::arena());
   const int uav = scene.id(mjOBJ_BODY, "uav");
-  mjtNum* v = scene.data()->qvel +
-              scene.model()->jnt_dofadr[scene.id(mjOBJ_JOINT, "uav")];
+  mjtNum* v = scene.data()->qvel + scene.model()->jnt_dofadr[scene.id(mjOBJ_JOINT, "uav")];
   const Eigen::Vector3d linear(0.3, -0.2, 0.1), omega(0, 0, 2);  // MuJoCo: world, body
   for (int i = 0; i < 3; ++i) {
     v[i] = linear[i];

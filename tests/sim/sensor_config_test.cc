@@ -40,8 +40,8 @@ TEST(SensorConfig, defaults_and_presets_are_within_their_ranges) {
 }
 
 TEST(SensorConfig, a_pixel_section_exists_only_where_it_has_an_effect) {
-  for (const SensorPreset preset : {SensorPreset::by_illuminance, SensorPreset::clean,
-                                    SensorPreset::bright, SensorPreset::dim})
+  for (const SensorPreset preset :
+       {SensorPreset::by_illuminance, SensorPreset::clean, SensorPreset::bright, SensorPreset::dim})
     EXPECT_EQ(std::ranges::count(sections(preset), "pixel"), 0);
   EXPECT_EQ(std::ranges::count(sections(SensorPreset::custom), "pixel"), 1);
 }
@@ -63,7 +63,7 @@ TEST(SensorConfig, light_leads_from_dim_to_bright) {
        {&PixelConfig::threshold_on_sigma_log, &PixelConfig::threshold_off_sigma_log,
         &PixelConfig::cutoff_hz, &PixelConfig::refractory_us, &PixelConfig::leak_rate_hz,
         &PixelConfig::shot_noise_rate_hz}) {
-    EXPECT_NEAR(at(5).*member, dim.*member, 1e-9);        // rounding of pow
+    EXPECT_NEAR(at(5).*member, dim.*member, 1e-9);  // rounding of pow
     EXPECT_NEAR(at(1000).*member, bright.*member, 1e-9);
     EXPECT_EQ(at(1e5).*member, at(1000).*member);
     EXPECT_EQ(at(0.01).*member, at(0.1).*member);

@@ -71,7 +71,7 @@ TEST(SimulatedCamera, WhatAFullQueueLosesIsCounted) {
   const std::uint64_t read = camera.take_packet().events.size();
   const ReadoutCounts& counts = camera.readout_counts();
   EXPECT_EQ(counts.read, read);
-  EXPECT_LE(read, 20u);  // one a millisecond
+  EXPECT_LE(read, 20u);          // one a millisecond
   EXPECT_GT(counts.lost, 100u);  // 768 pixels flash as one, 8 of them may wait
 }
 

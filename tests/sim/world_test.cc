@@ -47,8 +47,10 @@ TEST(World, TagAndCameraLieAsTheFramesDocumentSays) {
   Eigen::Matrix3d R_body_camera;
   R_body_camera << 0, -1, 0, -1, 0, 0, 0, 0, -1;
   EXPECT_TRUE(world.T_body_camera().linear().isApprox(R_body_camera, 1e-12));
-  EXPECT_NEAR((truth.uav.p_world_body_m - truth.T_world_tag.translation() -
-               Eigen::Vector3d(0, 0, 1.5)).norm(), 0.0, 1e-9);
+  EXPECT_NEAR(
+      (truth.uav.p_world_body_m - truth.T_world_tag.translation() - Eigen::Vector3d(0, 0, 1.5))
+          .norm(),
+      0.0, 1e-9);
 }
 
 TEST(World, TheTagIsDrawnWhereTruthProjectsIt) {
@@ -57,8 +59,8 @@ TEST(World, TheTagIsDrawnWhereTruthProjectsIt) {
   world.draw(5.0, luminance_lux);
   const core::Truth truth = world.truth();
   const auto pixel_of = [&](double x_m, double y_m) {
-    const Eigen::Vector3d p = truth.T_world_camera.inverse() * truth.T_world_tag *
-                              Eigen::Vector3d(x_m, y_m, 0);
+    const Eigen::Vector3d p =
+        truth.T_world_camera.inverse() * truth.T_world_tag * Eigen::Vector3d(x_m, y_m, 0);
     const Eigen::Vector2d pixel = *world.camera_model().project(p);
     return luminance_lux(static_cast<int>(std::lround(pixel.x())),
                          static_cast<int>(std::lround(pixel.y())));

@@ -55,10 +55,10 @@ Chase chase(Plant& plant, TargetState x, double duration_s, double settle_s,
     if (core::seconds(plant.state.t) < settle_s) continue;
     result.worst_m = std::max(result.worst_m, (plant.state.p_world_body_m - x.head<3>()).norm());
     const Eigen::Vector3d forward = plant.state.q_world_body * Eigen::Vector3d::UnitX();
-    result.worst_heading_rad = std::max(
-        result.worst_heading_rad,
-        std::abs(std::remainder(std::atan2(forward.y(), forward.x()) - x[3],
-                                2 * std::numbers::pi)));
+    result.worst_heading_rad =
+        std::max(result.worst_heading_rad,
+                 std::abs(std::remainder(std::atan2(forward.y(), forward.x()) - x[3],
+                                         2 * std::numbers::pi)));
   }
   return result;
 }

@@ -14,8 +14,8 @@ class Plant {
  public:
   core::VehicleState state;
   Eigen::Vector3d wind_m_s2 = Eigen::Vector3d::Zero();  ///< Constant push.
-  double board_z_m = -1e3;                               ///< Stops here.
-  static constexpr double kAttitude_s = 0.08;            ///< Time constant of the attitude.
+  double board_z_m = -1e3;                              ///< Stops here.
+  static constexpr double kAttitude_s = 0.08;           ///< Time constant of the attitude.
 
   /// Moves on by `dt`, by steps of 1 ms.
   void fly(const core::AttitudeSetpoint& setpoint, core::Time dt) {
@@ -32,8 +32,8 @@ class Plant {
     const Eigen::AngleAxisd turn(before.conjugate() * state.q_world_body);
     state.omega_body_rad_s = turn.angle() / dt_s * turn.axis();
     const Eigen::Vector3d a = state.q_world_body * Eigen::Vector3d(0, 0, thrust_m_s2_) -
-                              Eigen::Vector3d(0, 0, 9.81) -
-                              kDrag_hz * state.v_world_body_m_s + wind_m_s2;
+                              Eigen::Vector3d(0, 0, 9.81) - kDrag_hz * state.v_world_body_m_s +
+                              wind_m_s2;
     state.v_world_body_m_s += a * dt_s;
     state.p_world_body_m += state.v_world_body_m_s * dt_s;
     if (state.p_world_body_m.z() < board_z_m) {

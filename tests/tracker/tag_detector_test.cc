@@ -90,9 +90,9 @@ TEST(TagDetector, FindsTheSameInAWindowAsInTheWholePicture) {
     for (const auto& corner : c) box.extend(corner);
     const Eigen::Vector2d low = box.min().array() - 30, size = box.sizes().array() + 60;
     const auto whole = detector.detect(picture);
-    const auto part = detector.detect(
-        picture, Window{static_cast<int>(low.x()), static_cast<int>(low.y()),
-                        static_cast<int>(size.x()), static_cast<int>(size.y())});
+    const auto part =
+        detector.detect(picture, Window{static_cast<int>(low.x()), static_cast<int>(low.y()),
+                                        static_cast<int>(size.x()), static_cast<int>(size.y())});
     ASSERT_EQ(whole.size(), 1u);
     ASSERT_EQ(part.size(), 1u);
     // The same pixels in the same tiles: equal but for the order of sums in the

@@ -38,7 +38,7 @@ TEST(TagFix, SaysWhereTheTagIsAndWhereItHeads) {
   ASSERT_TRUE(fix);
   EXPECT_EQ(fix->t, core::Time(7));
   EXPECT_LT((fix->z - Eigen::Vector4d(1.2, 1.9, 0.2, -2.5)).norm(), 1e-12);  // rounding
-  EXPECT_NEAR(fix->tilt_rad, 0, 1e-7);  // arc cosine near 1
+  EXPECT_NEAR(fix->tilt_rad, 0, 1e-7);                                       // arc cosine near 1
 }
 
 TEST(TagFix, IsRefusedForATagTiltedBeyondTheLimit) {

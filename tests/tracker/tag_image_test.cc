@@ -39,8 +39,8 @@ TEST(TagImage, UnknownIdsAndEmptyCellsAreRefused) {
 }
 
 TEST(TagImage, TheLandingBoardsTextureShowsWhatLibapriltagDraws) {
-  const cv::Mat board = cv::imread(std::string(NIGHTJAR_SOURCE_DIR) +
-                                       "/models/textures/board.png", cv::IMREAD_GRAYSCALE);
+  const cv::Mat board = cv::imread(std::string(NIGHTJAR_SOURCE_DIR) + "/models/textures/board.png",
+                                   cv::IMREAD_GRAYSCALE);
   ASSERT_FALSE(board.empty());
   const int cell_px = board.cols / (2 * kCells);  // the tag is half as wide as the board
   const auto tag = tag_image(0, cell_px);

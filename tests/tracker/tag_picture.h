@@ -42,7 +42,7 @@ inline core::Picture tag_picture(const core::CameraModel& camera,
   const cv::Mat source(texture.height(), texture.width(), CV_8U, texture.pixels().data());
 
   const double step_m = kSize_m / texture.width();
-  Eigen::Matrix3d tag_of_texture;  // texture pixel -> (x, y, 1) in tag axes
+  Eigen::Matrix3d tag_of_texture;                          // texture pixel -> (x, y, 1) in tag axes
   tag_of_texture << 0, -step_m, kSize_m / 2 - step_m / 2,  //
       -step_m, 0, kSize_m / 2 - step_m / 2,                //
       0, 0, 1;
@@ -77,8 +77,7 @@ inline core::Picture tag_picture(const core::CameraModel& camera,
   }
 
   core::Picture picture{.t = {}, .gray = core::Image<std::uint8_t>(camera.size)};
-  std::copy(gray.begin<std::uint8_t>(), gray.end<std::uint8_t>(),
-            picture.gray.pixels().begin());
+  std::copy(gray.begin<std::uint8_t>(), gray.end<std::uint8_t>(), picture.gray.pixels().begin());
   return picture;
 }
 

@@ -79,8 +79,7 @@ TEST(TagPose, IsWithinMillimetresOnRenderedPictures) {
     ASSERT_EQ(found.size(), 1u);
     const auto solutions = tag_poses(found[0], test_camera(), kTag_m);
     ASSERT_FALSE(solutions.empty());
-    const Eigen::Vector3d error =
-        nearest(solutions, T).translation() - T.translation();
+    const Eigen::Vector3d error = nearest(solutions, T).translation() - T.translation();
     // Corners are good to 0.08 px rms (3 sigma 0.24): across z sigma / (2 f) and
     // along z^2 sigma / (sqrt(2) f a), that is 0.6 mm and 6 mm at 1.6 m.
     EXPECT_LT(error.head<2>().norm(), 2e-3);

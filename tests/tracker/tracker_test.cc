@@ -46,9 +46,10 @@ class World {
     past_.push_back({plant.state, target});
     while (past_.size() > 1 && past_.front().uav.t < plant.state.t - delay_) past_.pop_front();
     tracker.add_vehicle_state(plant.state);
-    core::Picture picture = tag_seen ? picture_of(past_.front())
-                                     : core::Picture{.t = {}, .gray = core::Image<std::uint8_t>(
-                                                                  test_camera().size, 128)};
+    core::Picture picture =
+        tag_seen
+            ? picture_of(past_.front())
+            : core::Picture{.t = {}, .gray = core::Image<std::uint8_t>(test_camera().size, 128)};
     add_noise(picture, 12, 0.02, random_);
     picture.t = plant.state.t;
     TrackerOutput output = tracker.process(picture);
@@ -84,8 +85,7 @@ class World {
         Eigen::AngleAxisd(moment.target[3], Eigen::Vector3d::UnitZ()).toRotationMatrix();
     T_world_tag.translation() = moment.target.head<3>();
     return tag_picture(test_camera(),
-                       (moment.uav.T_world_body() * T_body_camera()).inverse() * T_world_tag, 0,
-                       3);
+                       (moment.uav.T_world_body() * T_body_camera()).inverse() * T_world_tag, 0, 3);
   }
 
   Time delay_;
@@ -98,9 +98,8 @@ TEST(Tracker, TracksATurningTargetAndLandsOnIt) {
   world.target[5] = 0.3;
   double worst_estimate_m = 0;
   int windows = 0, pictures = 0;
-  for (int i = 0; i < 900 && (world.log.empty() ||
-                              world.log.back().to != MissionPhase::touched_down);
-       ++i) {
+  for (int i = 0;
+       i < 900 && (world.log.empty() || world.log.back().to != MissionPhase::touched_down); ++i) {
     const auto output = world.step();
     if (world.plant.state.t < std::chrono::seconds(2)) continue;
     ++pictures;
