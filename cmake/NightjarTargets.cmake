@@ -4,9 +4,9 @@ add_library(nightjar_options INTERFACE)
 target_compile_options(nightjar_options INTERFACE -Wall -Wextra -Wshadow -Wconversion
                                                   -Wno-sign-conversion)
 if(NIGHTJAR_SANITIZE)
-  target_compile_options(nightjar_options INTERFACE -fsanitize=address,undefined
+  target_compile_options(nightjar_options INTERFACE -fsanitize=${NIGHTJAR_SANITIZE}
                                                     -fno-sanitize-recover=all)
-  target_link_options(nightjar_options INTERFACE -fsanitize=address,undefined)
+  target_link_options(nightjar_options INTERFACE -fsanitize=${NIGHTJAR_SANITIZE})
 endif()
 # No contraction into multiply-adds, so that what we compile gives the same bits
 # whichever instruction set is chosen at run time. The C library and llvmpipe choose

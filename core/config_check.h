@@ -14,6 +14,16 @@ namespace nightjar::core {
 template <class Enum, std::size_t N>
 using Choices = std::array<std::pair<const char*, Enum>, N>;
 
+/// Where a parameter's default comes from; an assumption of ours begins with
+/// "assumption:". `unit` only where the name's ending does not tell it; kPureNumber
+/// for what has none. Shown by the parameter table, no matter to the other visitors.
+struct Origin {
+  const char* source = "";
+  const char* unit = "";
+};
+
+inline constexpr const char* kPureNumber = "1";
+
 /// A number as people write it: no trailing zeros.
 std::string number_text(double value);
 
@@ -23,28 +33,31 @@ void check_range(const std::string& path, double value, double least, double gre
 
 /// A config struct declares its members once, in
 ///     template <class Visitor> void visit(Visitor& v);
-/// and every visitor offers the calls below. This one checks the ranges.
+/// and every visitor offers the calls below, each with a last argument `Origin` that
+/// may be left out. This one checks the ranges.
 class RangeCheck {
  public:
   explicit RangeCheck(std::string path) : path_(std::move(path)) {}
 
-  void field(const char* name, const double& value, double least, double greatest) {
+  void field(const char* name, const double& value, double least, double greatest,
+             const Origin& = {}) {
     check_range(at(name), value, least, greatest);
   }
-  void field(const char* name, const int& value, int least, int greatest) {
+  void field(const char* name, const int& value, int least, int greatest, const Origin& = {}) {
     check_range(at(name), value, least, greatest);
   }
   /// Every element has the same range.
   template <std::size_t N>
-  void field(const char* name, const std::array<double, N>& value, double least, double greatest) {
+  void field(const char* name, const std::array<double, N>& value, double least, double greatest,
+             const Origin& = {}) {
     for (std::size_t i = 0; i < N; ++i)
       check_range(at(name) + '[' + std::to_string(i) + ']', value[i], least, greatest);
   }
-  void field(const char*, const bool&) {}
-  void field(const char*, const std::string&) {}
+  void field(const char*, const bool&, const Origin& = {}) {}
+  void field(const char*, const std::string&, const Origin& = {}) {}
 
   template <class Enum, std::size_t N>
-  void choice(const char*, const Enum&, const Choices<Enum, N>&) {}
+  void choice(const char*, const Enum&, const Choices<Enum, N>&, const Origin& = {}) {}
 
   template <class Config>
   void section(const char* name, Config& config) {

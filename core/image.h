@@ -51,7 +51,8 @@ struct Picture {
 struct ApsFrame {
   Time exposure_begin{};
   Time exposure_end{};
-  Image<std::uint8_t> gray;
+  int bits = 8;               ///< 8 or 10.
+  Image<std::uint16_t> gray;  ///< 0 to 2^bits - 1.
 };
 
 }  // namespace nightjar::core

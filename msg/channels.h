@@ -2,6 +2,7 @@
 
 #include "core/event.h"
 #include "core/image.h"
+#include "core/imu.h"
 #include "core/state.h"
 #include "core/truth.h"
 #include "msg/tag_detections.h"
@@ -17,6 +18,7 @@ struct Channel {
 inline constexpr Channel<core::EventPacket> kEvents{"NIGHTJAR_EVENTS"};
 inline constexpr Channel<core::Picture> kPicture{"NIGHTJAR_PICTURE"};
 inline constexpr Channel<core::ApsFrame> kApsFrame{"NIGHTJAR_APS_FRAME"};
+inline constexpr Channel<core::ImuSample> kImu{"NIGHTJAR_IMU"};
 inline constexpr Channel<TagDetections> kTagDetections{"NIGHTJAR_TAG_DETECTIONS"};
 inline constexpr Channel<core::TargetEstimate> kTargetEstimate{"NIGHTJAR_TARGET_ESTIMATE"};
 inline constexpr Channel<core::VehicleState> kVehicleState{"NIGHTJAR_VEHICLE_STATE"};

@@ -6,6 +6,7 @@
 
 #include "core/event.h"
 #include "core/image.h"
+#include "core/imu.h"
 #include "core/state.h"
 #include "core/truth.h"
 #include "msg/tag_detections.h"
@@ -18,10 +19,12 @@ using Bytes = std::vector<std::uint8_t>;
 /// Nothing is rounded: decode<T>(encode(value)) has the bits of `value`.
 /// Throws std::invalid_argument for a value that breaks its own type's promise:
 /// an event outside (begin, end] or out of order, a packet longer than 2^31 - 1
-/// us, a tag of another time than its picture, text with a zero byte inside.
+/// us, a frame of other than 8 or 10 bits or with a pixel beyond them, a tag of
+/// another time than its picture, text with a zero byte inside.
 Bytes encode(const core::EventPacket& packet);
 Bytes encode(const core::Picture& picture);
 Bytes encode(const core::ApsFrame& frame);
+Bytes encode(const core::ImuSample& sample);
 Bytes encode(const TagDetections& detections);
 Bytes encode(const core::TargetEstimate& estimate);
 Bytes encode(const core::VehicleState& state);
@@ -40,6 +43,8 @@ template <>
 core::Picture decode(std::span<const std::uint8_t> bytes);
 template <>
 core::ApsFrame decode(std::span<const std::uint8_t> bytes);
+template <>
+core::ImuSample decode(std::span<const std::uint8_t> bytes);
 template <>
 TagDetections decode(std::span<const std::uint8_t> bytes);
 template <>

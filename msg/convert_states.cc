@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <nightjar_lcm/attitude_setpoint_t.hpp>
+#include <nightjar_lcm/imu_sample_t.hpp>
 #include <nightjar_lcm/mission_transition_t.hpp>
 #include <nightjar_lcm/tag_detections_t.hpp>
 #include <nightjar_lcm/target_estimate_t.hpp>
@@ -148,6 +149,21 @@ Bytes encode(const core::VehicleState& state) { return to_bytes(to_lcm(state)); 
 template <>
 core::VehicleState decode(std::span<const std::uint8_t> bytes) {
   return from_lcm(from_bytes<nightjar_lcm::vehicle_state_t>(bytes));
+}
+
+Bytes encode(const core::ImuSample& sample) {
+  nightjar_lcm::imu_sample_t message;
+  message.time_us = to_us(sample.t);
+  put(sample.omega_camera_rad_s, message.omega_camera_rad_s);
+  put(sample.specific_force_camera_m_s2, message.specific_force_camera_m_s2);
+  return to_bytes(message);
+}
+
+template <>
+core::ImuSample decode(std::span<const std::uint8_t> bytes) {
+  const auto message = from_bytes<nightjar_lcm::imu_sample_t>(bytes);
+  return {core::Time(message.time_us), get(message.omega_camera_rad_s),
+          get(message.specific_force_camera_m_s2)};
 }
 
 Bytes encode(const core::AttitudeSetpoint& setpoint) {

@@ -2,10 +2,12 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <future>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "msg/bus.h"
 #include "msg/log_writer.h"
@@ -30,6 +32,7 @@ void record_channels(msg::LogWriter& log, msg::Bus& bus, bool events) {
   log.record(bus, msg::kTruth);
   log.record(bus, msg::kVehicleState);
   log.record(bus, msg::kApsFrame);
+  log.record(bus, msg::kImu);
   if (events) log.record(bus, msg::kEvents);
   log.record(bus, msg::kPicture);
   log.record(bus, msg::kTagDetections);
@@ -48,6 +51,9 @@ class Run {
 
  private:
   void take(const PictureRecord& record);
+  void handle();
+  void film();
+  std::vector<core::StageTime> stage_times() const;
   bool over() const;
 
   const Scenario& scenario_;
@@ -63,6 +69,9 @@ class Run {
   ReconstructionNode reconstruction_;
   TrackerNode tracker_;
   RecordNode records_;
+  core::StageTimer handling_{"all messages", "handling"};
+  core::StageTimer waiting_{"wait for handling", "world"};
+  core::StageTimer filming_{"film", "world"};
   core::MissionPhase phase_ = core::MissionPhase::search;
   std::optional<core::Time> touched_down_;
   core::Time end_;
@@ -109,26 +118,47 @@ void Run::take(const PictureRecord& record) {
 }
 
 bool Run::over() const {
-  const core::Truth& truth = world_.step().truth;
+  const core::Truth truth = simulation_.world().truth();
   return truth.t >= end_ || truth.crashed ||
          (touched_down_ && truth.t >= *touched_down_ + kAfterTouchdown);
 }
 
+std::vector<core::StageTime> Run::stage_times() const {
+  std::vector<core::StageTime> times = simulation_.stage_times();
+  times.insert(times.end(), {waiting_.time(), reconstruction_.stage_time(), tracker_.stage_time(),
+                             handling_.time()});
+  if (video_) times.push_back(filming_.time());
+  std::ranges::stable_sort(times, {},
+                           [](const core::StageTime& t) { return std::string_view(t.thread); });
+  return times;
+}
+
+/// Publishes the packet flown last and has all modules do their work on it.
+void Run::handle() {
+  const std::size_t events = world_.publish();
+  scorer_.add_events(static_cast<std::int64_t>(events));
+  handling_([this] { return bus_.dispatch(); });
+}
+
+void Run::film() {
+  if (video_) filming_([this] { video_->draw_chase(simulation_.world()); });
+}
+
 void Run::fly() {
-  do {
+  world_.take_setpoint();
+  world_.fly();
+  film();
+  while (!over()) {
     world_.take_setpoint();
-    std::future<std::size_t> handled =
-        std::async(std::launch::async, [this] { return bus_.dispatch(); });
-    world_.advance();
-    handled.get();
-    if (video_) video_->draw_chase(simulation_.world());
-    scorer_.add_events(static_cast<std::int64_t>(world_.step().packet.events.size()));
-    world_.publish();
+    std::future<void> handled = std::async(std::launch::async, [this] { handle(); });
+    world_.fly();
+    waiting_([&] { handled.get(); });
+    film();
     if (options_.on_progress)
-      options_.on_progress(core::seconds(world_.step().truth.t), scenario_.duration_s,
+      options_.on_progress(core::seconds(simulation_.world().now()), scenario_.duration_s,
                            to_string(phase_));
-  } while (!over());
-  bus_.dispatch();
+  }
+  handle();
 }
 
 Summary Run::finish(double wall_time_s) {
@@ -138,7 +168,8 @@ Summary Run::finish(double wall_time_s) {
   const auto lost = simulation_.camera().readout_counts().lost;
   if (lost > 0) spdlog::warn("the readout lost {} events", lost);
   scorer_.add_lost_events(static_cast<std::int64_t>(lost));
-  Summary summary = scorer_.summary(world_.step().truth.t, wall_time_s);
+  Summary summary = scorer_.summary(simulation_.world().now(), wall_time_s);
+  summary.profile = stage_times();
   folder_.write(kSummaryFile, to_json(summary));
   return summary;
 }

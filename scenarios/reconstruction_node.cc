@@ -8,8 +8,10 @@ ReconstructionNode::ReconstructionNode(msg::Bus& bus, const esi::EsiConfig& conf
                                        core::Resolution size)
     : esi_(config, size) {
   bus.subscribe(msg::kEvents, [this, &bus](const core::EventPacket& packet) {
-    esi_.process(packet.events);
-    esi_.render(packet.end, picture_);
+    reconstructing_([&] {
+      esi_.process(packet.events);
+      esi_.render(packet.end, picture_);
+    });
     bus.publish(msg::kPicture, picture_);
   });
 }

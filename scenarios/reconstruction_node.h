@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/image.h"
+#include "core/stage_timer.h"
 #include "esi/esi.h"
 #include "msg/bus.h"
 
@@ -12,9 +13,12 @@ class ReconstructionNode {
  public:
   ReconstructionNode(msg::Bus& bus, const esi::EsiConfig& config, core::Resolution size);
 
+  const core::StageTime& stage_time() const { return reconstructing_.time(); }
+
  private:
   esi::Esi esi_;
   core::Picture picture_;
+  core::StageTimer reconstructing_{"reconstruct", "handling"};
 };
 
 }  // namespace nightjar::scenarios

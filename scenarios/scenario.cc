@@ -31,6 +31,20 @@ std::string no_model(const std::string& model) {
                        : fmt::format("model = {}, no such file", shown_file(model));
 }
 
+// The pixels that the preset stands for, which the file itself does not hold. Without
+// the "# " it is what sensor.preset = custom takes.
+std::string pixel_comment(const Scenario& scenario) {
+  const std::string pixel =
+      to_yaml(sim::effective_pixel(scenario.sensor, scenario.illuminance_lux));
+  std::string comment = "\n# sensor.pixel, as the preset makes it:\n";
+  for (std::size_t begin = 0; begin < pixel.size();) {
+    const std::size_t end = pixel.find('\n', begin) + 1;
+    comment += "#   " + pixel.substr(begin, end - begin);
+    begin = end;
+  }
+  return comment;
+}
+
 }  // namespace
 
 Scenario load(const fs::path& path) { return parse(read_scenario_text(path), path); }
@@ -69,6 +83,7 @@ void save(const Scenario& scenario, const fs::path& path) {
   copy.model = fs::proximate(scenario.model, fs::absolute(path).parent_path()).string();
   std::ofstream stream(path, std::ios::binary);
   stream << to_yaml(copy);
+  if (copy.sensor.preset != sim::SensorPreset::custom) stream << pixel_comment(copy);
   stream.close();
   if (!stream) throw ScenarioError(shown_file(path.string()) + ": cannot be written");
 }

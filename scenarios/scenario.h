@@ -62,7 +62,8 @@ Scenario parse(const std::string& text, const std::filesystem::path& path);
 void check(const Scenario& scenario);
 
 /// Writes every value, with its range as a comment, so that load(path) gives the
-/// same scenario. Throws ScenarioError when the file cannot be written.
+/// same scenario; the pixels that a preset stands for follow as a comment. Throws
+/// ScenarioError when the file cannot be written.
 void save(const Scenario& scenario, const std::filesystem::path& path);
 
 }  // namespace nightjar::scenarios

@@ -3,25 +3,23 @@
 #include "msg/channels.h"
 
 namespace nightjar::scenarios {
-namespace {
-
-constexpr double kHover_m_s2 = 9.81;
-
-}  // namespace
 
 SimulationNode::SimulationNode(msg::Bus& bus, sim::Simulation& simulation)
     : bus_(bus), simulation_(simulation) {
   latest_.q_world_body = simulation.world().vehicle_state().q_world_body;
-  latest_.thrust_m_s2 = kHover_m_s2;
+  latest_.thrust_m_s2 = simulation.world().gravity_m_s2();  // hovers
   bus.subscribe(msg::kAttitudeSetpoint,
                 [this](const core::AttitudeSetpoint& setpoint) { latest_ = setpoint; });
 }
 
-void SimulationNode::publish() {
-  bus_.publish(msg::kTruth, step_.truth);
-  bus_.publish(msg::kVehicleState, step_.vehicle);
-  for (const core::ApsFrame& frame : step_.frames) bus_.publish(msg::kApsFrame, frame);
-  bus_.publish(msg::kEvents, step_.packet);
+std::size_t SimulationNode::publish() {
+  const sim::SimulationStep step = simulation_.take();
+  bus_.publish(msg::kTruth, step.truth);
+  bus_.publish(msg::kVehicleState, step.vehicle);
+  for (const core::ImuSample& sample : step.imu) bus_.publish(msg::kImu, sample);
+  for (const core::ApsFrame& frame : step.frames) bus_.publish(msg::kApsFrame, frame);
+  bus_.publish(msg::kEvents, step.packet);
+  return step.packet.events.size();
 }
 
 }  // namespace nightjar::scenarios

@@ -6,7 +6,7 @@
 
 namespace nightjar::scenarios {
 
-/// Setpoints in; truth, vehicle state, frames and events out.
+/// Setpoints in; truth, vehicle state, IMU samples, frames and events out.
 /// Acts within Bus::dispatch() and knows neither who sends nor who listens.
 class SimulationNode {
  public:
@@ -15,20 +15,18 @@ class SimulationNode {
   /// Fixes the setpoint to fly next: the last that came.
   void take_setpoint() { flown_ = latest_; }
   /// Flies one packet under it. Touches no bus, so the messages of the packet before
-  /// may be handled meanwhile.
-  void advance() { step_ = simulation_.advance(flown_); }
-  /// Publishes what advance() gave. Truth and vehicle state go first: whoever handles
-  /// the picture made of the events has them by then.
-  void publish();
-
-  const sim::SimulationStep& step() const { return step_; }
+  /// may be published and handled meanwhile.
+  void fly() { simulation_.fly(flown_); }
+  /// Publishes what the earliest packet flown and not yet published gave. Truth and
+  /// vehicle state go first: whoever handles the picture made of the events has them by
+  /// then. Returns the number of events.
+  std::size_t publish();
 
  private:
   msg::Bus& bus_;
   sim::Simulation& simulation_;
   core::AttitudeSetpoint latest_;
   core::AttitudeSetpoint flown_;
-  sim::SimulationStep step_;
 };
 
 }  // namespace nightjar::scenarios

@@ -25,6 +25,16 @@ Json json(const std::vector<core::MissionTransition>& transitions) {
   return list;
 }
 
+Json json(const std::vector<core::StageTime>& profile) {
+  Json list = Json::array();
+  for (const core::StageTime& time : profile)
+    list.push_back({{"stage", time.stage},
+                    {"thread", time.thread},
+                    {"wall_s", std::chrono::duration<double>(time.wall).count()},
+                    {"calls", time.calls}});
+  return list;
+}
+
 std::string row(const char* name, const std::string& value) {
   return fmt::format("  {:<26}{}\n", name, value);
 }
@@ -68,6 +78,7 @@ std::string to_json(const Summary& s) {
       {"estimates_sha256", s.estimates_sha256},
       {"passed", s.passed},
       {"failed_criteria", s.failed_criteria},
+      {"profile", json(s.profile)},
   };
   return summary.dump(2) + '\n';
 }
@@ -94,6 +105,19 @@ std::string to_table(const Summary& s) {
                              core::to_string(step.from), core::to_string(step.to), step.cause));
   table += row("passed", yes_no(s.passed));
   for (const std::string& line : s.failed_criteria) table += row("", line);
+  return table;
+}
+
+std::string profile_table(const Summary& s) {
+  std::string table = fmt::format("{:<10}{:<20}{:>9}{:>10}{:>10}{:>12}\n", "thread", "stage",
+                                  "calls", "total s", "ms/call", "% of wall");
+  for (const core::StageTime& time : s.profile) {
+    const double wall_s = std::chrono::duration<double>(time.wall).count();
+    table += fmt::format("{:<10}{:<20}{:>9}{:>10.2f}{:>10.3f}{:>12.1f}\n", time.thread, time.stage,
+                         time.calls, wall_s,
+                         time.calls > 0 ? 1e3 * wall_s / static_cast<double>(time.calls) : 0.0,
+                         s.wall_time_s > 0 ? 100 * wall_s / s.wall_time_s : 0.0);
+  }
   return table;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/stage_timer.h"
 #include "core/state.h"
 
 namespace nightjar::scenarios {
@@ -44,12 +45,17 @@ struct Summary {
 
   bool passed = false;
   std::vector<std::string> failed_criteria;
+
+  std::vector<core::StageTime> profile;  ///< What the loop's stages took.
 };
 
 /// The summary as indented JSON, one object, ending in a line break; "nothing" is null.
 std::string to_json(const Summary& summary);
 
-/// The summary as lines of text for a terminal.
+/// The summary as lines of text for a terminal, without the profile.
 std::string to_table(const Summary& summary);
+
+/// The profile alone, by thread.
+std::string profile_table(const Summary& summary);
 
 }  // namespace nightjar::scenarios

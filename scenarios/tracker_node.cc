@@ -10,7 +10,7 @@ TrackerNode::TrackerNode(msg::Bus& bus, const tracker::TrackerConfig& config,
   bus.subscribe(msg::kVehicleState,
                 [this](const core::VehicleState& state) { tracker_.add_vehicle_state(state); });
   bus.subscribe(msg::kPicture, [this, &bus](const core::Picture& picture) {
-    const tracker::TrackerOutput output = tracker_.process(picture);
+    const tracker::TrackerOutput output = tracking_([&] { return tracker_.process(picture); });
     bus.publish(msg::kTagDetections, {picture.t, output.detections});
     bus.publish(msg::kTargetEstimate, output.estimate);
     for (const core::MissionTransition& transition : output.transitions)

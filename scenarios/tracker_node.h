@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "core/camera_model.h"
+#include "core/stage_timer.h"
 #include "msg/bus.h"
 #include "tracker/tracker.h"
 
@@ -16,8 +17,11 @@ class TrackerNode {
   TrackerNode(msg::Bus& bus, const tracker::TrackerConfig& config, const core::CameraModel& camera,
               const Eigen::Isometry3d& T_body_camera);
 
+  const core::StageTime& stage_time() const { return tracking_.time(); }
+
  private:
   tracker::Tracker tracker_;
+  core::StageTimer tracking_{"track", "handling"};
 };
 
 }  // namespace nightjar::scenarios

@@ -93,7 +93,8 @@ Video::Video(msg::Bus& bus, OutputFolder& folder, const core::CameraModel& camer
                           size))
     throw std::runtime_error("cannot write the video " + path);
   Impl& impl = *impl_;
-  bus.subscribe(msg::kApsFrame, [&impl](const core::ApsFrame& frame) { impl.frame = frame.gray; });
+  bus.subscribe(msg::kApsFrame,
+                [&impl](const core::ApsFrame& frame) { impl.frame = gray_8_bit(frame); });
   bus.subscribe(msg::kPicture,
                 [&impl](const core::Picture& picture) { impl.picture = picture.gray; });
   bus.subscribe(msg::kEvents, [&impl](const core::EventPacket& packet) {

@@ -1,5 +1,7 @@
 #include "scenarios/video_panes.h"
 
+#include <algorithm>
+
 namespace nightjar::scenarios {
 namespace {
 
@@ -23,6 +25,14 @@ Pane gray_pane(const core::Image<std::uint8_t>& gray, core::Resolution sensor) {
     for (int x = 0; x < sensor.width_px; ++x)
       fill(pane, x, y, {gray(x, y), gray(x, y), gray(x, y)});
   return pane;
+}
+
+core::Image<std::uint8_t> gray_8_bit(const core::ApsFrame& frame) {
+  core::Image<std::uint8_t> gray(frame.gray.size());
+  std::ranges::transform(frame.gray.pixels(), gray.pixels().begin(), [&frame](std::uint16_t value) {
+    return static_cast<std::uint8_t>(value >> (frame.bits - 8));
+  });
+  return gray;
 }
 
 Pane event_pane(std::span<const core::Event> events, core::Resolution sensor) {

@@ -74,11 +74,12 @@ YamlReader::YamlReader(const YamlNode& map, std::string file, std::string path)
   }
 }
 
-void YamlReader::field(const char* name, double& value, double least, double greatest) {
+void YamlReader::field(const char* name, double& value, double least, double greatest,
+                       const core::Origin&) {
   if (const YamlNode* node = find(name)) value = number(*node, at(name), least, greatest);
 }
 
-void YamlReader::field(const char* name, int& value, int least, int greatest) {
+void YamlReader::field(const char* name, int& value, int least, int greatest, const core::Origin&) {
   const YamlNode* node = find(name);
   if (!node) return;
   // A whole number too large for an int is still out of range, not text.
@@ -91,7 +92,7 @@ void YamlReader::field(const char* name, int& value, int least, int greatest) {
   value = static_cast<int>(*whole);
 }
 
-void YamlReader::field(const char* name, bool& value) {
+void YamlReader::field(const char* name, bool& value, const core::Origin&) {
   const YamlNode* node = find(name);
   if (!node) return;
   const bool plain = node->kind == Kind::scalar && !node->quoted;
@@ -100,7 +101,7 @@ void YamlReader::field(const char* name, bool& value) {
   value = node->text == "true";
 }
 
-void YamlReader::field(const char* name, std::string& value) {
+void YamlReader::field(const char* name, std::string& value, const core::Origin&) {
   const YamlNode* node = find(name);
   if (!node) return;
   if (node->kind != Kind::scalar)

@@ -23,17 +23,20 @@ class YamlReader {
   /// section's dotted name, empty for the whole file.
   YamlReader(const YamlNode& map, std::string file, std::string path);
 
-  void field(const char* name, double& value, double least, double greatest);
-  void field(const char* name, int& value, int least, int greatest);
-  void field(const char* name, bool& value);
-  void field(const char* name, std::string& value);
+  void field(const char* name, double& value, double least, double greatest,
+             const core::Origin& = {});
+  void field(const char* name, int& value, int least, int greatest, const core::Origin& = {});
+  void field(const char* name, bool& value, const core::Origin& = {});
+  void field(const char* name, std::string& value, const core::Origin& = {});
   template <std::size_t N>
-  void field(const char* name, std::array<double, N>& value, double least, double greatest) {
+  void field(const char* name, std::array<double, N>& value, double least, double greatest,
+             const core::Origin& = {}) {
     read_numbers(name, value, least, greatest);
   }
 
   template <class Enum, std::size_t N>
-  void choice(const char* name, Enum& value, const core::Choices<Enum, N>& choices) {
+  void choice(const char* name, Enum& value, const core::Choices<Enum, N>& choices,
+              const core::Origin& = {}) {
     std::array<const char*, N> names{};
     for (std::size_t i = 0; i < N; ++i) names[i] = choices[i].first;
     if (const auto chosen = read_choice(name, names); chosen < N) value = choices[chosen].second;

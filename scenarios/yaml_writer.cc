@@ -15,22 +15,24 @@ YAML::_Comment range(double least, double greatest) {
 YamlWriter::YamlWriter() : emitter_(std::make_unique<YAML::Emitter>()) {}
 YamlWriter::~YamlWriter() = default;
 
-void YamlWriter::field(const char* name, const double& value, double least, double greatest) {
+void YamlWriter::field(const char* name, const double& value, double least, double greatest,
+                       const core::Origin&) {
   key(name);
   *emitter_ << fmt::format("{}", value) << range(least, greatest);
 }
 
-void YamlWriter::field(const char* name, const int& value, int least, int greatest) {
+void YamlWriter::field(const char* name, const int& value, int least, int greatest,
+                       const core::Origin&) {
   key(name);
   *emitter_ << value << range(least, greatest);
 }
 
-void YamlWriter::field(const char* name, const bool& value) {
+void YamlWriter::field(const char* name, const bool& value, const core::Origin&) {
   key(name);
   *emitter_ << value << YAML::Comment("true, false");
 }
 
-void YamlWriter::field(const char* name, const std::string& value) {
+void YamlWriter::field(const char* name, const std::string& value, const core::Origin&) {
   key(name);
   *emitter_ << YAML::DoubleQuoted << value;
 }

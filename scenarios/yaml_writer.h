@@ -22,17 +22,20 @@ class YamlWriter {
   YamlWriter();
   ~YamlWriter();
 
-  void field(const char* name, const double& value, double least, double greatest);
-  void field(const char* name, const int& value, int least, int greatest);
-  void field(const char* name, const bool& value);
-  void field(const char* name, const std::string& value);
+  void field(const char* name, const double& value, double least, double greatest,
+             const core::Origin& = {});
+  void field(const char* name, const int& value, int least, int greatest, const core::Origin& = {});
+  void field(const char* name, const bool& value, const core::Origin& = {});
+  void field(const char* name, const std::string& value, const core::Origin& = {});
   template <std::size_t N>
-  void field(const char* name, const std::array<double, N>& value, double least, double greatest) {
+  void field(const char* name, const std::array<double, N>& value, double least, double greatest,
+             const core::Origin& = {}) {
     write_numbers(name, value, least, greatest);
   }
 
   template <class Enum, std::size_t N>
-  void choice(const char* name, const Enum& value, const core::Choices<Enum, N>& choices) {
+  void choice(const char* name, const Enum& value, const core::Choices<Enum, N>& choices,
+              const core::Origin& = {}) {
     write_choice(name, choice_name(value, choices), choice_names(choices));
   }
 

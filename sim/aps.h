@@ -27,8 +27,8 @@ class ApsSensor {
             std::uint64_t seed);
 
   /// The luminance at `t`, linear in time between calls, as EventEmulator takes it;
-  /// NaN and negative values count as 0. Gives the frame whose exposure has ended in
-  /// (previous t, t].
+  /// NaN and negative values count as 0, infinite ones saturate. Gives the frame whose
+  /// exposure has ended in (previous t, t].
   /// Throws std::invalid_argument for another size, a time that does not increase, or
   /// a step longer than the interval; the sensor is then as before.
   std::optional<core::ApsFrame> add(core::Time t, const core::Image<float>& luminance_lux);
@@ -36,10 +36,15 @@ class ApsSensor {
   core::Time exposure() const { return exposure_; }
   core::Time interval() const { return interval_; }
 
+  /// Inputs corrected so far: NaN, infinite or negative.
+  std::uint64_t bad_radiance() const { return bad_radiance_; }
+
  private:
   void check(core::Time t, const core::Image<float>& luminance_lux) const;
+  /// Copies to `next_lux_`, corrects and counts what is no luminance.
+  void take(const core::Image<float>& luminance_lux);
   /// Adds to the charge what falls into the exposure of the step to `t`.
-  void integrate(core::Time t, const core::Image<float>& luminance_lux);
+  void integrate(core::Time t);
   core::ApsFrame read();
 
   ApsConfig config_;
@@ -47,12 +52,15 @@ class ApsSensor {
   core::Time interval_;
   std::vector<float> gain_;      ///< Electrons per lux s, fixed pattern included.
   std::vector<float> offset_e_;  ///< Fixed pattern.
-  core::Random noise_;
+  core::Random noise_;           ///< One draw a pixel and frame, of shot and read noise together.
 
   std::optional<core::Time> last_;
-  core::Time begin_{};                ///< Of the exposure under way or the next one.
-  core::Image<float> luminance_lux_;  ///< At `last_`.
+  core::Time begin_{};  ///< Of the exposure under way or the next one.
+  core::Resolution size_;
+  std::vector<float> last_lux_;  ///< At `last_`.
+  std::vector<float> next_lux_;
   std::vector<float> charge_lux_s_;
+  std::uint64_t bad_radiance_ = 0;
 };
 
 }  // namespace nightjar::sim

@@ -12,24 +12,9 @@ Eigen::Quaterniond rotation(const Eigen::Vector3d& vector_rad) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector_rad / angle));
 }
 
-Eigen::Vector3d normal3(core::Random& random) {
-  const double x = core::normal(random), y = core::normal(random), z = core::normal(random);
-  return {x, y, z};
-}
-
 constexpr double radians(double deg) { return deg * std::numbers::pi / 180.0; }
 
 }  // namespace
-
-GaussMarkov::GaussMarkov(const Eigen::Vector3d& sigma, double correlation_s, core::Random random)
-    : sigma_(sigma), correlation_s_(correlation_s), random_(random), value_(noise()) {}
-
-Eigen::Vector3d GaussMarkov::noise() { return normal3(random_).cwiseProduct(sigma_); }
-
-void GaussMarkov::advance(double dt_s) {
-  const double keep = std::exp(-dt_s / correlation_s_);
-  value_ = keep * value_ + std::sqrt(1.0 - keep * keep) * noise();
-}
 
 Autopilot::Autopilot(const AutopilotConfig& c, const Quadrotor& quadrotor, std::uint64_t seed)
     : config_(c),

@@ -5,26 +5,10 @@
 #include "core/random.h"
 #include "core/state.h"
 #include "sim/config.h"
+#include "sim/gauss_markov.h"
 #include "sim/quadrotor.h"
 
 namespace nightjar::sim {
-
-/// A stationary first-order Gauss-Markov error in three axes.
-class GaussMarkov {
- public:
-  /// `sigma` is the stationary standard deviation of each axis.
-  GaussMarkov(const Eigen::Vector3d& sigma, double correlation_s, core::Random random);
-  const Eigen::Vector3d& value() const { return value_; }
-  void advance(double dt_s);  ///< exact for any step
-
- private:
-  Eigen::Vector3d noise();
-
-  Eigen::Vector3d sigma_;
-  double correlation_s_;
-  core::Random random_;
-  Eigen::Vector3d value_;
-};
 
 /// The flight controller of the UAV: estimates its own state (truth plus stated
 /// errors, AutopilotConfig) and holds the attitude and thrust it is asked for.

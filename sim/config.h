@@ -140,10 +140,10 @@ struct CameraConfig {
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("width_px", width_px, 16, 2048);
-    v.field("height_px", height_px, 16, 2048);
-    v.field("fovy_deg", fovy_deg, 5.0, 150.0);
-    v.field("packet_interval_ms", packet_interval_ms, 1.0, 100.0);
+    v.field("width_px", width_px, 16, 2048, {"DAVIS346"});
+    v.field("height_px", height_px, 16, 2048, {"DAVIS346"});
+    v.field("fovy_deg", fovy_deg, 5.0, 150.0, {"assumption: 5.5 mm lens on 18.5 um pixels"});
+    v.field("packet_interval_ms", packet_interval_ms, 1.0, 100.0, {"ESI paper; libcaer's default"});
   }
 };
 

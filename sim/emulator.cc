@@ -3,27 +3,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
-#include <cmath>
+#include <cstring>
 #include <numbers>
 #include <optional>
+#include <stdexcept>
 
 #include "core/random.h"
+#include "sim/fired_events.h"
+#include "sim/leak.h"
 #include "sim/noise.h"
-#include "sim/pixel.h"
+#include "sim/noise_candidates.h"
 #include "sim/pixel_kernel.h"
-#include "sim/radix_sort.h"
+#include "sim/pixel_walks.h"
 
 namespace nightjar::sim {
 namespace {
 
-constexpr std::uint32_t kBlock = 1024;  // so that one block's arrays stay in the cache
 constexpr int kMostSidePx = 32767;
 constexpr core::Time kLongestStep = std::chrono::hours(1);
-
-std::uint32_t bits_for(std::uint64_t below) {
-  return static_cast<std::uint32_t>(std::bit_width(below - 1));
-}
 
 void check(const PixelConfig& config, core::Resolution size, double white_lux) {
   core::check_config(config, "pixel");
@@ -36,29 +35,18 @@ void check(const PixelConfig& config, core::Resolution size, double white_lux) {
   core::check_range("white_lux", white_lux, 1e-6, 1e9);
 }
 
-/// What scratch a block needs: the state before the step and what crossed.
-struct BlockScratch {
-  float intensity[kBlock];
-  float log_intensity[kBlock];
-  float lag[kBlock] = {};
-  float residual[kBlock];
-  std::uint32_t crossed[kBlock];
-};
-
-/// A noise event that a pixel may fire in the step under way.
-struct Candidate {
-  std::uint32_t pixel;
-  enum Kind : std::uint32_t { shot_off, shot_on, hot } kind;
-  double s;    ///< Time in the step, 0 at its begin, 1 at its end.
-  float mark;  ///< For thinning.
-};
-
-/// An event before it is put in order.
-struct Fired {
-  std::uint32_t offset_us;  ///< After the begin of the step.
-  std::uint32_t pixel : 31;
-  std::uint32_t on : 1;
-};
+/// 64 flags, each 0 or 1, as bits.
+std::uint64_t bits_of(const std::uint8_t* flags) {
+  static_assert(std::endian::native == std::endian::little);
+  std::uint64_t bits = 0;
+  for (int i = 0; i < 8; ++i) {
+    std::uint64_t eight;
+    std::memcpy(&eight, flags + 8 * i, sizeof(eight));
+    // The product has flag k at bit 56 + k, and nothing that carries into it.
+    bits |= (eight * 0x0102040810204080u) >> 56 << 8 * i;
+  }
+  return bits;
+}
 
 }  // namespace
 
@@ -73,48 +61,38 @@ class EventEmulator::Pixels {
   std::vector<float> threshold_on, threshold_off;
 
  private:
+  void fill_blocks(const Leak& leak, std::uint64_t seed);
   void check_step(core::Time t, const core::Image<float>& luminance_lux) const;
   void settle(const float* luminance_lux);
-  void draw_candidates(core::Time t);
-  void draw_candidates(PointProcess& process, core::Time t, Candidate::Kind kind);
-  void advance_block(std::uint32_t begin, std::uint32_t count, const float* luminance_lux);
-  KernelBlock block_of(std::uint32_t begin, const float* luminance_lux);
-  /// Thins the block's candidates; marks the pixels that need more than the dense pass.
-  void mark_special(std::uint32_t begin, std::uint32_t end);
-  void walk(std::uint32_t p, std::uint32_t in_block);
-  double fire_crossings(std::uint32_t p, ResidualCourse& course, double from, double to);
-  double fire(std::uint32_t p, ResidualCourse& course, double s, double level, bool on);
-  bool takes_place(const Candidate& candidate, std::uint32_t in_block) const;
-  void hand_over(std::vector<core::Event>& events);
+  void advance(core::Time t, const float* luminance_lux);
+  void advance_block(std::uint32_t first_pixel, const float* luminance_lux);
+  void mark_resting(std::uint32_t first_pixel);
+  void walk_noisy(std::uint32_t first_pixel, PixelBlock& block);
+  void walk_crossed(std::uint32_t first_pixel, PixelBlock& block);
+  void count(BadInputs bad);
+  std::uint32_t block_size(std::uint32_t first_pixel) const {
+    return std::min(PixelBlock::kPixels, pixels_ - first_pixel);
+  }
 
   PixelConfig config_;
   core::Resolution size_;
   std::uint32_t pixels_;
   KernelStep kernel_;
-  double rate_per_intensity_;
-
-  // State and constants of each pixel.
-  std::vector<float> intensity_, log_intensity_, lag_, residual_;
-  std::vector<float> leak_per_s_, leak_mean_per_s_;
-  std::vector<std::uint32_t> leak_draws_;
-  std::vector<double> rest_until_us_;
-
-  std::uint64_t leak_key_;
-  PointProcess shot_on_, shot_off_, hot_;
-  HotPixels hot_pixels_;
+  std::vector<PixelBlock> blocks_;
+  NoiseCandidates noise_;
+  PixelWalks walks_;
+  FiredEvents fired_;
 
   // The step under way.
   std::optional<core::Time> now_;  ///< Its begin.
   double dt_us_ = 0;
-  std::vector<Candidate> candidates_, candidates_scratch_;  ///< By pixel, then time.
+  double per_us_ = 0;  ///< 1/dt_us_
+  std::span<NoiseCandidate> candidates_;
   std::size_t next_candidate_ = 0;
-  std::vector<Candidate> noise_;  ///< Those of the block under way that take place.
-  std::size_t next_noise_ = 0;
-  std::vector<std::uint32_t> resting_, resting_next_;  ///< Pixels, ascending.
+  std::size_t picked_noise_ = 0;        ///< So many of those before are left, at the front.
+  std::vector<std::uint32_t> resting_;  ///< Pixels, ascending.
   std::size_t next_resting_ = 0;
-  std::vector<Fired> fired_, fired_scratch_;
-  std::vector<NoisePoint> points_;
-  BlockScratch before_;
+  BlockStep block_step_;
 };
 
 EventEmulator::Pixels::Pixels(const PixelConfig& config, core::Resolution size, double white_lux,
@@ -127,35 +105,21 @@ EventEmulator::Pixels::Pixels(const PixelConfig& config, core::Resolution size, 
       size_(size),
       pixels_(static_cast<std::uint32_t>(size.pixels())),
       kernel_(kernel_step(config, white_lux)),
-      rate_per_intensity_(rate_per_intensity(config)),
-      intensity_(pixels_),
-      log_intensity_(pixels_),
-      lag_(pixels_),
-      residual_(pixels_),
-      leak_per_s_(pixels_),
-      leak_mean_per_s_(pixels_),
-      leak_draws_(config.leak_rate_hz > 0 ? pixels_ : 0),
-      rest_until_us_(config.refractory_us > 0 ? pixels_ : 0, -1e300),
-      leak_key_(core::random_stream(seed, "leak_jitter")()),
-      shot_on_(
-          shot_noise_rates_hz(config.shot_noise_rate_hz, config.threshold_on_log, threshold_on),
-          core::random_stream(seed, "shot_on")),
-      shot_off_(
-          shot_noise_rates_hz(config.shot_noise_rate_hz, config.threshold_off_log, threshold_off),
-          core::random_stream(seed, "shot_off")),
-      hot_({}, core::Random()),
-      hot_pixels_(draw_hot_pixels(config, pixels_, seed)) {
-  hot_ = PointProcess(hot_pixels_.rates_hz, core::random_stream(seed, "hot_pixel_time"));
-  if (config.leak_rate_hz <= 0) return;
-  core::Random spread = core::random_stream(seed, "leak_spread");
-  core::Random phase = core::random_stream(seed, "leak_phase");
+      blocks_((pixels_ + PixelBlock::kPixels - 1) / PixelBlock::kPixels),
+      noise_(config, threshold_on, threshold_off, seed),
+      walks_(config, pixels_, Leak(config, threshold_on, seed)) {
+  fill_blocks(Leak(config, threshold_on, seed), seed);
+}
+
+void EventEmulator::Pixels::fill_blocks(const Leak& leak, std::uint64_t seed) {
+  const std::vector<float> phases = draw_leak_phases_log(threshold_on, seed);
   for (std::uint32_t p = 0; p < pixels_; ++p) {
-    const double rate_hz =
-        config.leak_rate_hz * std::pow(10.0, config.leak_spread_decades * core::normal(spread));
-    leak_mean_per_s_[p] = static_cast<float>(rate_hz * threshold_on[p]);
-    leak_per_s_[p] = leak_mean_per_s_[p];
-    // Each pixel starts somewhere between two leak events; else all fire at once.
-    residual_[p] = static_cast<float>(core::uniform01(phase) * threshold_on[p]);
+    PixelBlock& block = blocks_[p / PixelBlock::kPixels];
+    const std::uint32_t i = p % PixelBlock::kPixels;
+    block.threshold_on[i] = threshold_on[p];
+    block.threshold_off[i] = threshold_off[p];
+    block.leak_per_s[i] = leak.enabled() ? leak.mean_per_s(p) : 0.0f;
+    block.residual[i] = leak.enabled() ? phases[p] : 0.0f;
   }
 }
 
@@ -174,185 +138,89 @@ void EventEmulator::Pixels::step(core::Time t, const core::Image<float>& luminan
                                  std::vector<core::Event>& events) {
   check_step(t, luminance_lux);
   const float* luminance = luminance_lux.pixels().data();
-  if (!now_) {
+  if (now_) {
+    advance(t, luminance);
+    fired_.hand_over(*now_, t - *now_, size_.width_px, events);
+  } else {
     settle(luminance);
-    for (PointProcess* process : {&shot_on_, &shot_off_, &hot_}) process->start(t);
-    now_ = t;
-    return;
+    noise_.start(t);
   }
-  dt_us_ = static_cast<double>((t - *now_).count());
-  set_step(kernel_, config_, dt_us_ * 1e-6);
-  draw_candidates(t);
-  for (std::uint32_t begin = 0; begin < pixels_; begin += kBlock)
-    advance_block(begin, std::min(kBlock, pixels_ - begin), luminance);
-  resting_.swap(resting_next_);
-  resting_next_.clear();
-  next_resting_ = 0;
-  hand_over(events);
   now_ = t;
 }
 
-KernelBlock EventEmulator::Pixels::block_of(std::uint32_t begin, const float* luminance_lux) {
-  return {luminance_lux + begin,
-          intensity_.data() + begin,
-          log_intensity_.data() + begin,
-          lag_.data() + begin,
-          residual_.data() + begin,
-          threshold_on.data() + begin,
-          threshold_off.data() + begin,
-          leak_per_s_.data() + begin,
-          before_.intensity,
-          before_.log_intensity,
-          before_.lag,
-          before_.residual,
-          before_.crossed};
-}
-
 void EventEmulator::Pixels::settle(const float* luminance_lux) {
-  counts.bad_radiance += settle_pixels(kernel_, block_of(0, luminance_lux), pixels_);
+  for (std::uint32_t first = 0; first < pixels_; first += PixelBlock::kPixels)
+    count(settle_pixels(kernel_, luminance_lux + first, block_size(first),
+                        blocks_[first / PixelBlock::kPixels]));
 }
 
-void EventEmulator::Pixels::draw_candidates(core::Time t) {
-  candidates_.clear();
-  next_candidate_ = 0;
-  draw_candidates(shot_on_, t, Candidate::shot_on);
-  draw_candidates(shot_off_, t, Candidate::shot_off);
-  draw_candidates(hot_, t, Candidate::hot);
-  const auto by_pixel = [](const Candidate& c) { return c.pixel; };
-  radix_sort(candidates_, candidates_scratch_, static_cast<int>(bits_for(pixels_)), by_pixel);
-  // Within a pixel there are three processes, each in order of time.
-  const auto later = [](const Candidate& a, const Candidate& b) {
-    return a.pixel == b.pixel && a.s > b.s;
-  };
-  for (std::size_t i = 1; i < candidates_.size(); ++i)
-    for (std::size_t k = i; k > 0 && later(candidates_[k - 1], candidates_[k]); --k)
-      std::swap(candidates_[k - 1], candidates_[k]);
+void EventEmulator::Pixels::advance(core::Time t, const float* luminance_lux) {
+  dt_us_ = static_cast<double>((t - *now_).count());
+  per_us_ = 1 / dt_us_;
+  set_step(kernel_, config_, dt_us_ * 1e-6);
+  walks_.begin_step(*now_, t - *now_);
+  candidates_ = noise_.draw(t);
+  next_candidate_ = picked_noise_ = next_resting_ = 0;
+  for (std::uint32_t first = 0; first < pixels_; first += PixelBlock::kPixels)
+    advance_block(first, luminance_lux + first);
+  walks_.run(fired_, counts);
+  resting_ = walks_.take_resting();
 }
 
-void EventEmulator::Pixels::draw_candidates(PointProcess& process, core::Time t,
-                                            Candidate::Kind kind) {
-  points_.clear();
-  process.draw(t, points_);
-  for (const NoisePoint& point : points_) {
-    const std::uint32_t pixel =
-        kind == Candidate::hot ? hot_pixels_.pixels[point.source] : point.source;
-    const double s = (point.t_us - static_cast<double>(now_->count())) / dt_us_;
-    candidates_.push_back({pixel, kind, s, point.mark});
+void EventEmulator::Pixels::advance_block(std::uint32_t first_pixel, const float* luminance_lux) {
+  PixelBlock& block = blocks_[first_pixel / PixelBlock::kPixels];
+  count(advance_pixels(kernel_, luminance_lux, block_size(first_pixel), block, block_step_));
+  walks_.make_room(PixelBlock::kPixels, fired_, counts);
+  mark_resting(first_pixel);
+  walk_noisy(first_pixel, block);
+  walk_crossed(first_pixel, block);
+}
+
+void EventEmulator::Pixels::mark_resting(std::uint32_t first_pixel) {
+  for (; next_resting_ < resting_.size(); ++next_resting_) {
+    const std::uint32_t i = resting_[next_resting_] - first_pixel;
+    if (i >= PixelBlock::kPixels) break;
+    block_step_.crossed[i] = 1;
   }
 }
 
-void EventEmulator::Pixels::advance_block(std::uint32_t begin, std::uint32_t count,
-                                          const float* luminance_lux) {
-  counts.bad_radiance += advance_pixels(kernel_, block_of(begin, luminance_lux), count);
-  mark_special(begin, begin + count);
-  constexpr std::uint32_t kGroup = 16;
-  for (std::uint32_t first = 0; first < count; first += kGroup) {
-    const std::uint32_t last = std::min(first + kGroup, count);
-    std::uint32_t any = 0;
-    for (std::uint32_t i = first; i < last; ++i) any |= before_.crossed[i];
-    if (!any) continue;
-    for (std::uint32_t i = first; i < last; ++i)
-      if (before_.crossed[i]) walk(begin + i, i);
-  }
-}
-
-void EventEmulator::Pixels::mark_special(std::uint32_t begin, std::uint32_t end) {
-  noise_.clear();
-  next_noise_ = 0;
+/// Thins the block's candidates by v2e's law; they take their pixels' marks with them.
+void EventEmulator::Pixels::walk_noisy(std::uint32_t first_pixel, PixelBlock& block) {
+  const std::size_t first_noise = picked_noise_;
   for (; next_candidate_ < candidates_.size(); ++next_candidate_) {
-    const Candidate& candidate = candidates_[next_candidate_];
-    if (candidate.pixel >= end) break;
-    if (!takes_place(candidate, candidate.pixel - begin)) continue;
-    noise_.push_back(candidate);
-    before_.crossed[candidate.pixel - begin] = 1;
+    NoiseCandidate& candidate = candidates_[next_candidate_];
+    const std::uint32_t i = candidate.pixel - first_pixel;
+    if (i >= PixelBlock::kPixels) break;
+    const double before = block_step_.intensity[i];
+    const double s = (candidate.t_us - static_cast<double>(now_->count())) * per_us_;
+    const double intensity = before + (block.intensity[i] - before) * s;
+    // No branch, since nobody can guess which are taken.
+    candidates_[picked_noise_] = candidate;
+    picked_noise_ += static_cast<std::size_t>((candidate.kind == NoiseCandidate::hot) |
+                                              (candidate.mark < shot_noise_factor(intensity)));
   }
-  for (; next_resting_ < resting_.size() && resting_[next_resting_] < end; ++next_resting_)
-    before_.crossed[resting_[next_resting_] - begin] = 1;
+  const std::span<const NoiseCandidate> picked = candidates_.first(picked_noise_);
+  for (std::size_t begin = first_noise, end = begin; begin < picked.size(); begin = end) {
+    const std::uint32_t i = picked[begin].pixel - first_pixel;
+    while (end < picked.size() && picked[end].pixel == picked[begin].pixel) ++end;
+    walks_.add(first_pixel, i, block, block_step_, picked.subspan(begin, end - begin));
+    block_step_.crossed[i] = 0;
+  }
 }
 
-bool EventEmulator::Pixels::takes_place(const Candidate& candidate, std::uint32_t in_block) const {
-  if (candidate.kind == Candidate::hot) return true;
-  const double from = before_.intensity[in_block];
-  const double intensity = from + (intensity_[candidate.pixel] - from) * candidate.s;
-  return candidate.mark < shot_noise_factor(intensity);
+void EventEmulator::Pixels::walk_crossed(std::uint32_t first_pixel, PixelBlock& block) {
+  std::array<std::uint32_t, PixelBlock::kPixels> crossed;
+  std::uint32_t count = 0;
+  for (std::uint32_t begin = 0; begin < PixelBlock::kPixels; begin += 64)
+    for (std::uint64_t bits = bits_of(block_step_.crossed + begin); bits != 0; bits &= bits - 1)
+      crossed[count++] = begin + static_cast<std::uint32_t>(std::countr_zero(bits));
+  for (std::uint32_t k = 0; k < count; ++k)
+    walks_.add(first_pixel, crossed[k], block, block_step_, {});
 }
 
-/// Takes one pixel through the step event by event.
-void EventEmulator::Pixels::walk(std::uint32_t p, std::uint32_t in_block) {
-  const double intensity_0 = before_.intensity[in_block];
-  const double intensity_1 = intensity_[p];
-  const double change = static_cast<double>(log_intensity_[p]) - before_.log_intensity[in_block];
-  const double rate =
-      rate_per_intensity_ * (0.5 * (intensity_0 + intensity_1) + 20) * dt_us_ * 1e-6;
-  ResidualCourse course(change, leak_per_s_[p] * dt_us_ * 1e-6, before_.lag[in_block],
-                        before_.residual[in_block], rate);
-  double awake = 0;  // the pixel can fire from here on
-  if (!rest_until_us_.empty()) {
-    awake = std::max(0.0, (rest_until_us_[p] - static_cast<double>(now_->count())) / dt_us_);
-    if (awake > 0 && awake <= 1) course.memorise(course.residual(awake));
-  }
-  for (; next_noise_ < noise_.size() && noise_[next_noise_].pixel == p; ++next_noise_) {
-    const Candidate& noise = noise_[next_noise_];
-    awake = fire_crossings(p, course, awake, noise.s);
-    if (awake > noise.s) continue;
-    ++(noise.kind == Candidate::hot ? counts.hot : counts.shot);
-    awake = fire(p, course, noise.s, course.residual(noise.s), noise.kind != Candidate::shot_off);
-  }
-  awake = fire_crossings(p, course, awake, 1);
-  if (awake > 1) resting_next_.push_back(p);
-  residual_[p] = awake > 1 ? 0.0f : static_cast<float>(course.residual(1));
-}
-
-/// Fires what the signal and the leak give in [from, to]; returns from when on the
-/// pixel is awake, at least `to`.
-double EventEmulator::Pixels::fire_crossings(std::uint32_t p, ResidualCourse& course, double from,
-                                             double to) {
-  while (from < to) {
-    const double residual = course.residual(to);
-    const bool on = residual >= threshold_on[p];
-    if (!on && residual > -threshold_off[p]) return to;
-    const double level = on ? threshold_on[p] : -threshold_off[p];
-    constexpr double kToleranceUs = 0.05;
-    ++counts.signal;
-    const double s = course.crossing(from, to, level, kToleranceUs / dt_us_);
-    from = fire(p, course, s, level, on);
-  }
-  return from;
-}
-
-/// One event at `s`, with the residual at `level`; returns when the pixel is awake again.
-double EventEmulator::Pixels::fire(std::uint32_t p, ResidualCourse& course, double s, double level,
-                                   bool on) {
-  // The first whole microsecond not before it, so that it lies in (begin, end].
-  const double offset_us = std::clamp(std::ceil(s * dt_us_), 1.0, dt_us_);
-  fired_.push_back({static_cast<std::uint32_t>(offset_us), p & 0x7fffffffu, on});
-  course.memorise(level);
-  if (!leak_draws_.empty()) {
-    // v2e draws the jitter for each frame, which the number of frames averages out;
-    // here each interval between events has one draw.
-    const double deviation = leak_deviation(leak_key_, p, leak_draws_[p]++);
-    leak_per_s_[p] =
-        static_cast<float>(leak_mean_per_s_[p] / (1 + config_.leak_jitter * deviation));
-    course.change_leak(s, leak_per_s_[p] * dt_us_ * 1e-6);
-  }
-  if (rest_until_us_.empty()) return s;
-  const double awake = s + config_.refractory_us / dt_us_;
-  rest_until_us_[p] = static_cast<double>(now_->count()) + awake * dt_us_;
-  // Held in reset, it memorises what it wakes up to.
-  if (awake <= 1) course.memorise(course.residual(awake));
-  return awake;
-}
-
-void EventEmulator::Pixels::hand_over(std::vector<core::Event>& events) {
-  // They come by pixel, and each pixel's in order.
-  const auto bits = bits_for(static_cast<std::uint64_t>(dt_us_) + 1);
-  radix_sort(fired_, fired_scratch_, static_cast<int>(bits),
-             [](const Fired& f) { return f.offset_us; });
-  const auto width = static_cast<std::uint32_t>(size_.width_px);
-  for (const Fired& f : fired_)
-    events.push_back({*now_ + core::Time(f.offset_us), static_cast<std::uint16_t>(f.pixel % width),
-                      static_cast<std::uint16_t>(f.pixel / width), f.on != 0});
-  fired_.clear();
+void EventEmulator::Pixels::count(BadInputs bad) {
+  counts.negative_radiance += bad.negative;
+  counts.not_finite_radiance += bad.not_finite;
 }
 
 EventEmulator::EventEmulator(const PixelConfig& config, core::Resolution size, double white_lux,

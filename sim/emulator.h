@@ -7,17 +7,10 @@
 
 #include "core/event.h"
 #include "core/image.h"
+#include "sim/emulator_counts.h"
 #include "sim/sensor_config.h"
 
 namespace nightjar::sim {
-
-/// What the pixels did so far.
-struct EmulatorCounts {
-  std::uint64_t signal = 0;        ///< Threshold crossings, leak included.
-  std::uint64_t shot = 0;          ///< Shot noise.
-  std::uint64_t hot = 0;           ///< Hot pixels.
-  std::uint64_t bad_radiance = 0;  ///< Inputs corrected: NaN, infinite or negative.
-};
 
 /// The event pixels: photoreceptor, thresholds, refractory period, leak, shot noise
 /// and hot pixels, after v2e, with a crossing time of each event's own (as ESIM) and

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 
 #include "core/camera_model.h"
 
@@ -13,6 +14,14 @@ struct MovingCamera {
   Eigen::Vector3d omega_world_rad_s;
 };
 
+/// A box that moves as a rigid body; `v_world_m_s` is its centre's velocity.
+struct MovingBox {
+  Eigen::Isometry3d T_world_box;  ///< Origin in the centre, axes along the sides.
+  Eigen::Vector3d half_size_m;
+  Eigen::Vector3d v_world_m_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d omega_world_rad_s = Eigen::Vector3d::Zero();
+};
+
 /// Image velocity (px/s) of a world point that moves with `v_world_m_s`; nothing
 /// when the point is not in front of the camera.
 std::optional<Eigen::Vector2d> image_velocity(const core::CameraModel& model,
@@ -20,28 +29,11 @@ std::optional<Eigen::Vector2d> image_velocity(const core::CameraModel& model,
                                               const Eigen::Vector3d& p_world_m,
                                               const Eigen::Vector3d& v_world_m_s);
 
-/// The fastest image motion (px/s) of the level plane at `height_m`, which as a
-/// whole moves like a rigid body: `plane_velocity(p)` is the velocity of its point
-/// p. Looks at a grid of pixels over the picture; those that look past the plane
-/// are left out.
-template <class PlaneVelocity>
-double fastest_motion_px_s(const core::CameraModel& model, const MovingCamera& camera,
-                           double height_m, PlaneVelocity plane_velocity) {
-  constexpr int kGrid = 4;  // image motion of a plane is quadratic in x and y: its extremes
-                            // are at the rim
-  double fastest = 0;
-  for (int j = 0; j <= kGrid; ++j)
-    for (int i = 0; i <= kGrid; ++i) {
-      const Eigen::Vector2d pixel(i * (model.size.width_px - 1.0) / kGrid,
-                                  j * (model.size.height_px - 1.0) / kGrid);
-      const Eigen::Vector3d ray = camera.T_world_camera.linear() * model.ray(pixel);
-      const double above_m = camera.T_world_camera.translation().z() - height_m;
-      if (ray.z() >= 0 || above_m <= 0) continue;
-      const Eigen::Vector3d p = camera.T_world_camera.translation() - ray * (above_m / ray.z());
-      if (const auto v = image_velocity(model, camera, p, plane_velocity(p)))
-        fastest = std::max(fastest, v->norm());
-    }
-  return fastest;
-}
+/// An upper bound of the image speed (px/s) of all points in the box that the camera
+/// may see, whatever hides them; 0 when none is in the picture, infinite from within.
+/// Looks at a grid over the pixels where the box can appear: image motion at a given
+/// depth is quadratic in the pixel, so that its extremes are at the rim.
+double motion_bound_px_s(const core::CameraModel& model, const MovingCamera& camera,
+                         const MovingBox& box);
 
 }  // namespace nightjar::sim

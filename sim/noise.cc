@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "sim/pixel_math.h"
+
 namespace nightjar::sim {
 namespace {
 
@@ -39,28 +41,38 @@ PointProcess::PointProcess(std::span<const double> rates_hz, core::Random random
 }
 
 void PointProcess::start(core::Time t) {
-  next_us_ = static_cast<double>(t.count());
-  if (mean_gap_us_ > 0) next_us_ += gap_us();
+  last_us_ = static_cast<double>(t.count());
+  if (mean_gap_us_ > 0) draw_ahead();
 }
 
 void PointProcess::draw(core::Time until, std::vector<NoisePoint>& points) {
   if (!(mean_gap_us_ > 0)) return;
   const double until_us = static_cast<double>(until.count());
-  while (next_us_ <= until_us) {
-    const std::uint32_t from = source();
-    const float mark = static_cast<float>(random_() >> 40) * 0x1p-24f;
-    points.push_back({next_us_, from, mark});
-    next_us_ += gap_us();
-  }
+  for (; ahead_[next_].t_us <= until_us; ++next_ == kAhead ? draw_ahead() : void())
+    points.push_back(ahead_[next_]);
 }
 
-double PointProcess::gap_us() { return mean_gap_us_ * core::exponential(random_); }
-
-std::uint32_t PointProcess::source() {
-  const std::uint64_t bits = random_();
-  const auto i = static_cast<std::uint32_t>(((bits >> 32) * columns_.size()) >> 32);
-  const Column& column = columns_[i];
-  return static_cast<std::uint32_t>(bits) <= column.share ? i : column.alias;
+void PointProcess::draw_ahead() {
+  std::array<std::uint32_t, kAhead> column, height;
+  for (std::uint32_t k = 0; k < kAhead; ++k) {
+    const std::uint64_t bits = random_();
+    column[k] = static_cast<std::uint32_t>(((bits >> 32) * columns_.size()) >> 32);
+    height[k] = static_cast<std::uint32_t>(bits);
+    __builtin_prefetch(&columns_[column[k]]);
+  }
+  for (NoisePoint& point : ahead_) {
+    // 40 bits for the gap, so that none is beyond reach, 24 for the mark.
+    const std::uint64_t bits = random_();
+    const float above_0 = static_cast<float>(static_cast<std::int64_t>(bits >> 24) + 1) * 0x1p-40f;
+    last_us_ -= mean_gap_us_ * fast_log(above_0);
+    point.t_us = last_us_;
+    point.mark = static_cast<float>(static_cast<std::int32_t>(bits & 0xffffff)) * 0x1p-24f;
+  }
+  for (std::uint32_t k = 0; k < kAhead; ++k) {
+    const Column& c = columns_[column[k]];
+    ahead_[k].source = height[k] <= c.share ? column[k] : c.alias;
+  }
+  next_ = 0;
 }
 
 std::vector<double> shot_noise_rates_hz(double shot_noise_rate_hz, double threshold_log,
@@ -70,11 +82,6 @@ std::vector<double> shot_noise_rates_hz(double shot_noise_rate_hz, double thresh
   for (const float own_log : thresholds_log)
     rates_hz.push_back(shot_noise_rate_hz / 2 * threshold_log / own_log);
   return rates_hz;
-}
-
-double shot_noise_factor(double intensity) {
-  constexpr double kInWhite = 0.25;
-  return 1 - (1 - kInWhite) * std::min(1.0, (intensity + 20) / 275);
 }
 
 HotPixels draw_hot_pixels(const PixelConfig& config, std::uint32_t pixels, std::uint64_t seed) {
@@ -98,17 +105,6 @@ std::vector<float> draw_thresholds_log(double mean_log, double sigma_log, std::s
     threshold =
         static_cast<float>(std::max(kLeastThreshold, mean_log + sigma_log * core::normal(random)));
   return thresholds;
-}
-
-double leak_deviation(std::uint64_t key, std::uint32_t pixel, std::uint32_t n) {
-  // SplitMix64's finaliser over the counter; four 16-bit uniforms added up have the
-  // mean 4 * 32767.5 and the variance 4 * 65536^2 / 12.
-  std::uint64_t z = key + ((static_cast<std::uint64_t>(pixel) << 32) | n) * 0x9e3779b97f4a7c15ULL;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  z ^= z >> 31;
-  const std::uint64_t sum = (z & 0xffff) + ((z >> 16) & 0xffff) + ((z >> 32) & 0xffff) + (z >> 48);
-  return (static_cast<double>(sum) - 4 * 32767.5) / (65536 * 0.57735026918962576);
 }
 
 }  // namespace nightjar::sim

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -31,8 +33,7 @@ class PointProcess {
   void draw(core::Time until, std::vector<NoisePoint>& points);
 
  private:
-  std::uint32_t source();
-  double gap_us();
+  void draw_ahead();
 
   // Walker's alias method: column i holds source i up to `share`, above it `alias`.
   struct Column {
@@ -41,8 +42,12 @@ class PointProcess {
   };
   std::vector<Column> columns_;
   double mean_gap_us_ = 0;  ///< 0 = never.
-  double next_us_ = 0;
+  double last_us_ = 0;      ///< Of the points drawn.
   core::Random random_;
+  // Points come in blocks, so that the misses of a table as large as the sensor overlap.
+  static constexpr std::uint32_t kAhead = 64;
+  std::array<NoisePoint, kAhead> ahead_;
+  std::uint32_t next_ = kAhead;
 };
 
 /// Rates of shot noise of one polarity at intensity factor 1, per pixel (v2e's law):
@@ -51,7 +56,10 @@ std::vector<double> shot_noise_rates_hz(double shot_noise_rate_hz, double thresh
                                         std::span<const float> thresholds_log);
 
 /// v2e's intensity factor, 0.95 in the dark, 0.25 for white and above.
-double shot_noise_factor(double intensity);
+inline double shot_noise_factor(double intensity) {
+  constexpr double kInWhite = 0.25;
+  return 1 - (1 - kInWhite) * std::min(1.0, (intensity + 20) / 275);
+}
 
 /// The hot pixels and their rates.
 struct HotPixels {
@@ -65,10 +73,5 @@ HotPixels draw_hot_pixels(const PixelConfig& config, std::uint32_t pixels, std::
 /// Frozen Gaussian thresholds, none below 0.01.
 std::vector<float> draw_thresholds_log(double mean_log, double sigma_log, std::size_t pixels,
                                        core::Random random);
-
-/// Relative deviation of one leak interval, close to Gaussian with deviation 1 and
-/// within +-3.47. A function of its arguments alone: the n-th draw of a pixel is the
-/// same whatever the other pixels do.
-double leak_deviation(std::uint64_t key, std::uint32_t pixel, std::uint32_t n);
 
 }  // namespace nightjar::sim

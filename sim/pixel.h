@@ -1,40 +1,43 @@
 #pragma once
 
+#include "sim/pixel_math.h"
+
 namespace nightjar::sim {
 
 /// A pixel's residual (photoreceptor output minus what it last memorised) over one
 /// step, in closed form: s runs from 0 to 1, the log intensity moves linearly.
 ///     residual(s) = offset + slope s + bend exp(-rate s)
-class ResidualCourse {
- public:
-  /// `change` of the log intensity and `leak` over the whole step; `lag` of the
-  /// photoreceptor (output minus log intensity) and `residual` at s = 0; `rate` is the
-  /// photoreceptor's rate constant times the step, 0 where it has no low pass.
-  ResidualCourse(double change, double leak, double lag, double residual, double rate);
+struct ResidualCourse {
+  double offset = 0;
+  double slope = 0;
+  double bend = 0;
+  double rate = 0;         ///< The photoreceptor's rate constant times the step.
+  double bent_at_end = 0;  ///< bend exp(-rate): residual(1) is asked for most.
+  double leak = 0;         ///< What part of `slope` is leak.
 
-  double residual(double s) const { return offset_ + slope_ * s + bent(s); }
+  /// `change` of the log intensity and `leak` over the whole step; `lag` of the
+  /// photoreceptor (output minus log intensity) and `residual` at s = 0; `rate` is 0
+  /// where there is no low pass.
+  [[gnu::always_inline]] static inline ResidualCourse over_step(double change, double leak,
+                                                                double lag, double residual,
+                                                                double rate) {
+    // d lag/ds = -rate lag - change, so lag(s) = bend exp(-rate s) - change/rate.
+    const double bend = select(rate > 0, lag + change / rate, 0.0);
+    return {residual - bend, change + leak, bend, rate, bend * fast_exp_minus(rate), leak};
+  }
+
+  double residual(double s) const { return offset + slope * s + bend * fast_exp_minus(rate * s); }
+  double residual_at_end() const { return offset + slope + bent_at_end; }
 
   /// The pixel memorises its output of the moment when its residual was `level`.
-  void memorise(double level) { offset_ -= level; }
+  void memorise(double level) { offset -= level; }
 
-  /// The leak over a whole step becomes `leak` from `s` on.
-  void change_leak(double s, double leak);
-
-  /// First s in [from, to] with residual(s) = level, to `tolerance`, if residual(to)
-  /// has reached the level (is beyond 0 by at least as much). There is just one
-  /// passage, since the residual has at most one extremum. A level passed before
-  /// `from` gives `from`.
-  double crossing(double from, double to, double level, double tolerance) const;
-
- private:
-  double bent(double s) const;
-
-  double offset_;
-  double slope_;
-  double bend_;
-  double rate_;
-  double leak_;
-  double bent_at_end_;  ///< bent(1), asked for most.
+  /// The leak over a whole step becomes `new_leak` from `s` on.
+  void change_leak(double s, double new_leak) {
+    offset -= (new_leak - leak) * s;
+    slope += new_leak - leak;
+    leak = new_leak;
+  }
 };
 
 }  // namespace nightjar::sim

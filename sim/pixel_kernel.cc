@@ -1,6 +1,9 @@
 #include "sim/pixel_kernel.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "sim/pixel_math.h"
@@ -15,90 +18,124 @@ constexpr float kLeastIntensity = 0.01f;
 // Beyond any light, and far from overflow.
 constexpr float kMostLuminance = 1e30f;
 
-/// NaN and infinity give way to `last`, negative values to 0.
-[[gnu::always_inline]] inline float clean_intensity(float luminance, float scale, float last,
-                                                    std::uint32_t& bad) {
-  const bool known = (luminance >= -kMostLuminance) & (luminance <= kMostLuminance);
-  const bool positive = luminance >= 0.0f;
-  bad += 1u - static_cast<std::uint32_t>(known & positive);
-  return select(known, select(positive, luminance * scale, 0.0f), last);
+/// The intensity of one pixel: NaN and infinity give way to `last`, negative
+/// values to 0.
+float clean_intensity(float luminance_lux, float scale, float last, BadInputs& bad) {
+  if (!(std::abs(luminance_lux) <= kMostLuminance)) {
+    ++bad.not_finite;
+    return last;
+  }
+  if (luminance_lux >= 0) return luminance_lux * scale;
+  ++bad.negative;
+  return 0;
 }
 
 [[gnu::always_inline]] inline float log_intensity(float intensity, const KernelStep& step) {
   const float linear = intensity * step.linear;
-  const float log = fast_log(select(intensity > kLeastIntensity, intensity, kLeastIntensity));
+  // Bits of positive numbers are in the order of the numbers, and quick to compare.
+  const float log = fast_log(std::bit_cast<float>(std::max(
+      std::bit_cast<std::int32_t>(intensity), std::bit_cast<std::int32_t>(kLeastIntensity))));
   return select(intensity <= step.knee, linear, log);
 }
 
-/// The body of advance_pixels, to be compiled for several instruction sets.
-template <bool kLowPass>
-[[gnu::always_inline]] inline std::uint32_t advance_body(const KernelStep& step,
-                                                         const KernelBlock& block,
-                                                         std::size_t count) {
-  const KernelStep s = step;  // a copy: the stores below cannot change it
-  const float* luminance = block.luminance_lux;
-  float* intensity = block.intensity;
-  float* log = block.log_intensity;
-  float* lag = block.lag;
-  float* residual = block.residual;
-  const float* on = block.threshold_on;
-  const float* off = block.threshold_off;
-  const float* leak = block.leak_per_s;
-  float* intensity_before = block.intensity_before;
-  float* log_before = block.log_intensity_before;
-  float* lag_before = block.lag_before;
-  float* residual_before = block.residual_before;
-  std::uint32_t* crossed = block.crossed;
+// The body of advance_pixels, to be compiled for several instruction sets, in short loops
+// rather than one: their chains of dependent operations overlap from vector to vector.
+// The arrays do not overlap; without `ivdep` the compiler gives up on proving it.
 
-  std::uint32_t bad = 0;
-  // The arrays do not overlap; without this the compiler gives up on proving it.
+/// All in [0, kMostLuminance]: other values have greater bits, the sign's or
+/// the exponent's.
+[[gnu::always_inline]] inline bool all_usable(const float* luminance_lux, std::uint32_t count) {
+  std::uint32_t greatest = 0;
+  for (std::uint32_t i = 0; i < count; ++i)
+    greatest = std::max(greatest, std::bit_cast<std::uint32_t>(luminance_lux[i]));
+  return greatest <= std::bit_cast<std::uint32_t>(kMostLuminance);
+}
+
+/// Returns the greatest sum of a pixel's intensities before and after.
+[[gnu::always_inline]] inline float take_log(const KernelStep& step, const float* luminance_lux,
+                                             std::uint32_t count, PixelBlock& block,
+                                             BlockStep& result) {
+  const KernelStep s = step;   // a copy: the stores below cannot change it
+  std::uint32_t greatest = 0;  // bits of positive numbers are in the order of the numbers
 #pragma GCC ivdep
-  for (std::size_t i = 0; i < count; ++i) {
-    const float i0 = intensity[i];
-    const float u0 = log[i];
-    const float r0 = residual[i];
-    const float i1 = clean_intensity(luminance[i], s.scale, i0, bad);
-    const float u1 = log_intensity(i1, s);
-    float change = u1 - u0;
-    if constexpr (kLowPass) {
-      // d lag/dt = -k lag - du/dt with constant du/dt over the step.
-      const float lag0 = lag[i];
-      const float kdt = s.decay * (i0 + i1 + 2.0f * kDarkOffset);
-      const float a = select(kdt < 80.0f, kdt, 80.0f);
-      const float lost = fast_one_minus_exp(a);
-      const float lag1 = lag0 - lag0 * lost - change * (lost / a);
-      lag_before[i] = lag0;
-      lag[i] = lag1;
-      change += lag1 - lag0;
-    }
-    const float r1 = r0 + (change + leak[i] * s.dt_s);
-    intensity_before[i] = i0;
-    log_before[i] = u0;
-    residual_before[i] = r0;
-    intensity[i] = i1;
-    log[i] = u1;
-    residual[i] = r1;
-    crossed[i] = static_cast<std::uint32_t>((r1 >= on[i]) | (r1 <= -off[i]));
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const float before = block.intensity[i];
+    const float intensity = luminance_lux[i] * s.scale;
+    const float u = log_intensity(intensity, s);
+    greatest = std::max(greatest, std::bit_cast<std::uint32_t>(before + intensity));
+    result.intensity[i] = before;
+    result.change[i] = u - block.log_intensity[i];
+    block.intensity[i] = intensity;
+    block.log_intensity[i] = u;
   }
-  return bad;
+  return std::bit_cast<float>(greatest);
+}
+
+enum class LowPass { none, slow, any };
+
+/// The photoreceptor follows its input: d lag/dt = -k lag - du/dt with constant du/dt over
+/// the step. With LowPass::slow, k dt is at most 1 in all pixels, and a polynomial will do.
+template <LowPass kLowPass>
+[[gnu::always_inline]] inline void follow(const KernelStep& step, std::uint32_t count,
+                                          PixelBlock& block, BlockStep& result) {
+  const float decay = step.decay;
+  const float dt_s = step.dt_s;
+#pragma GCC ivdep
+  for (std::uint32_t i = 0; i < count; ++i) {
+    float change = result.change[i];
+    if constexpr (kLowPass != LowPass::none) {
+      const float lag = block.lag[i];
+      const float kdt = decay * (result.intensity[i] + block.intensity[i] + 2.0f * kDarkOffset);
+      const float a = kLowPass == LowPass::slow ? kdt : select(kdt < 80.0f, kdt, 80.0f);
+      const float mean = kLowPass == LowPass::slow ? fast_mean_exp(a) : fast_one_minus_exp(a) / a;
+      const float lost = (lag * a + change) * mean;
+      result.lag[i] = lag;
+      block.lag[i] = lag - lost;
+      change -= lost;
+    }
+    const float before = block.residual[i];
+    const float after = before + (change + block.leak_per_s[i] * dt_s);
+    result.residual[i] = before;
+    block.residual[i] = after;
+    result.crossed[i] = static_cast<std::uint8_t>((after >= block.threshold_on[i]) |
+                                                  (after <= -block.threshold_off[i]));
+  }
 }
 
 template <bool kLowPass>
-std::uint32_t advance_plain(const KernelStep& step, const KernelBlock& block, std::size_t count) {
-  return advance_body<kLowPass>(step, block, count);
+[[gnu::always_inline]] inline bool advance_body(const KernelStep& step, const float* luminance_lux,
+                                                std::uint32_t count, PixelBlock& block,
+                                                BlockStep& result) {
+  if (!all_usable(luminance_lux, count)) return false;
+  const float greatest = take_log(step, luminance_lux, count, block, result);
+  if constexpr (!kLowPass)
+    follow<LowPass::none>(step, count, block, result);
+  else if (step.decay * (greatest + 2.0f * kDarkOffset) <= 1.0f)
+    follow<LowPass::slow>(step, count, block, result);
+  else
+    follow<LowPass::any>(step, count, block, result);
+  return true;
+}
+
+template <bool kLowPass>
+bool advance_plain(const KernelStep& step, const float* luminance_lux, std::uint32_t count,
+                   PixelBlock& block, BlockStep& result) {
+  return advance_body<kLowPass>(step, luminance_lux, count, block, result);
 }
 
 #if defined(__x86_64__)
 template <bool kLowPass>
-[[gnu::target("avx2")]] std::uint32_t advance_avx2(const KernelStep& step, const KernelBlock& block,
-                                                   std::size_t count) {
-  return advance_body<kLowPass>(step, block, count);
+[[gnu::target("avx2")]] bool advance_avx2(const KernelStep& step, const float* luminance_lux,
+                                          std::uint32_t count, PixelBlock& block,
+                                          BlockStep& result) {
+  return advance_body<kLowPass>(step, luminance_lux, count, block, result);
 }
 
 template <bool kLowPass>
-[[gnu::target("avx512f,avx512bw,avx512dq,avx512vl")]] std::uint32_t advance_avx512(
-    const KernelStep& step, const KernelBlock& block, std::size_t count) {
-  return advance_body<kLowPass>(step, block, count);
+[[gnu::target("avx512f,avx512bw,avx512dq,avx512vl")]] bool advance_avx512(
+    const KernelStep& step, const float* luminance_lux, std::uint32_t count, PixelBlock& block,
+    BlockStep& result) {
+  return advance_body<kLowPass>(step, luminance_lux, count, block, result);
 }
 #endif
 
@@ -116,9 +153,20 @@ std::vector<KernelVariant> kernel_variants() {
   return variants;
 }
 
-std::uint32_t advance_pixels(const KernelStep& step, const KernelBlock& block, std::size_t count) {
+BadInputs advance_pixels(const KernelStep& step, const float* luminance_lux, std::uint32_t count,
+                         PixelBlock& block, BlockStep& result) {
   static const KernelVariant best = kernel_variants().back();
-  return (step.low_pass ? best.with_low_pass : best.without_low_pass)(step, block, count);
+  const auto advance = step.low_pass ? best.with_low_pass : best.without_low_pass;
+  std::fill(result.crossed + count, std::end(result.crossed), std::uint8_t{0});
+  BadInputs bad;
+  if (advance(step, luminance_lux, count, block, result)) return bad;
+  float intensity[PixelBlock::kPixels];
+  for (std::uint32_t i = 0; i < count; ++i)
+    intensity[i] = clean_intensity(luminance_lux[i], step.scale, block.intensity[i], bad);
+  KernelStep unscaled = step;
+  unscaled.scale = 1;
+  advance(unscaled, intensity, count, block, result);
+  return bad;
 }
 
 double rate_per_intensity(const PixelConfig& config) {
@@ -140,10 +188,11 @@ void set_step(KernelStep& step, const PixelConfig& config, double dt_s) {
   step.decay = static_cast<float>(rate_per_intensity(config) * dt_s / 2);
 }
 
-std::uint32_t settle_pixels(const KernelStep& step, const KernelBlock& block, std::size_t count) {
-  std::uint32_t bad = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    block.intensity[i] = clean_intensity(block.luminance_lux[i], step.scale, 0.0f, bad);
+BadInputs settle_pixels(const KernelStep& step, const float* luminance_lux, std::uint32_t count,
+                        PixelBlock& block) {
+  BadInputs bad;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    block.intensity[i] = clean_intensity(luminance_lux[i], step.scale, 0.0f, bad);
     block.log_intensity[i] = log_intensity(block.intensity[i], step);
     block.lag[i] = 0;
   }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -18,54 +17,72 @@ struct KernelStep {
   float dt_s = 0;
 };
 
-/// Pixels of one block: arrays of the same length that do not overlap. The state is
-/// replaced; what it was is left in `..._before` for the pixels that need a closer look.
-struct KernelBlock {
-  const float* luminance_lux;
-  // State.
-  float* intensity;
-  float* log_intensity;  ///< u
-  float* lag;            ///< Photoreceptor output minus u.
-  float* residual;       ///< Photoreceptor output minus what the pixel last memorised.
-  // Constants.
-  const float* threshold_on;
-  const float* threshold_off;
-  const float* leak_per_s;
-  // Results.
-  float* intensity_before;
-  float* log_intensity_before;
-  float* lag_before;
-  float* residual_before;
-  std::uint32_t* crossed;  ///< 1 where the residual has reached a threshold, else 0.
+/// State and constants of up to `kPixels` neighbours. All that a step needs of
+/// them lies together: arrays of whole pictures would share their cache sets
+/// and push each other out.
+struct alignas(64) PixelBlock {
+  static constexpr std::uint32_t kPixels = 256;
+
+  float intensity[kPixels];
+  float log_intensity[kPixels];
+  float lag[kPixels];       ///< Photoreceptor output minus log intensity.
+  float residual[kPixels];  ///< Photoreceptor output minus what the pixel last
+                            ///< memorised.
+  float threshold_on[kPixels];
+  float threshold_off[kPixels];
+  float leak_per_s[kPixels];
+};
+
+/// What a step leaves for those pixels of a block that need a closer look.
+struct alignas(64) BlockStep {
+  float intensity[PixelBlock::kPixels];  ///< Before the step, as `lag` and
+                                         ///< `residual`.
+  float lag[PixelBlock::kPixels] = {};   ///< 0 without a low pass.
+  float residual[PixelBlock::kPixels];
+  float change[PixelBlock::kPixels];  ///< Of the log intensity.
+  /// 1 where the residual has reached a threshold, else 0, also beyond the last pixel.
+  std::uint8_t crossed[PixelBlock::kPixels] = {};
+};
+
+/// Inputs that had to be corrected.
+struct BadInputs {
+  std::uint32_t negative = 0;    ///< Counted as 0.
+  std::uint32_t not_finite = 0;  ///< Beyond +-1e30 or NaN: the pixel's last value holds.
 };
 
 /// Constants for pixels of this config; dt_s and decay are set by `set_step`.
 KernelStep kernel_step(const PixelConfig& config, double white_lux);
 void set_step(KernelStep& step, const PixelConfig& config, double dt_s);
 
-/// The photoreceptor's rate constant, k = 2 pi f_c (I + 20)/275, in 1/s per unit of
-/// (I + 20): v2e emulator_utils.py, cac6384.
+/// The photoreceptor's rate constant, k = 2 pi f_c (I + 20)/275, in 1/s per
+/// unit of (I + 20): v2e emulator_utils.py, cac6384.
 double rate_per_intensity(const PixelConfig& config);
 
-/// Advances `count` pixels by one step as if none fired: the log intensity is linear
-/// over the step, the photoreceptor follows it exactly at the mean of its rate
-/// constants at both ends, the leak is added. Returns how many inputs were corrected.
-/// Every instruction set gives the same bits.
-std::uint32_t advance_pixels(const KernelStep& step, const KernelBlock& block, std::size_t count);
+/// Advances the first `count` pixels of a block by one step as if none fired:
+/// the log intensity is linear over the step, the photoreceptor follows it
+/// exactly at the mean of its rate constants at both ends, the leak is added.
+/// `luminance_lux` has `count` values. Every instruction set gives the same
+/// bits.
+BadInputs advance_pixels(const KernelStep& step, const float* luminance_lux, std::uint32_t count,
+                         PixelBlock& block, BlockStep& result);
 
-/// advance_pixels for one instruction set.
+/// The heart of advance_pixels for one instruction set; every input has to be
+/// usable.
 struct KernelVariant {
-  using Advance = std::uint32_t (*)(const KernelStep&, const KernelBlock&, std::size_t);
+  using Advance = bool (*)(const KernelStep&, const float* luminance_lux, std::uint32_t count,
+                           PixelBlock&, BlockStep&);
   const char* name;
   Advance with_low_pass;
   Advance without_low_pass;
 };
 
-/// Those this processor can run, slowest first; advance_pixels is the last of them.
+/// Those this processor can run, slowest first; advance_pixels takes the last
+/// of them.
 std::vector<KernelVariant> kernel_variants();
 
-/// Starts `count` pixels, settled on the input; the residual stays as it is. Returns how
-/// many inputs were corrected (NaN and infinity to 0).
-std::uint32_t settle_pixels(const KernelStep& step, const KernelBlock& block, std::size_t count);
+/// Starts the first `count` pixels, settled on the input (NaN and infinity
+/// count as 0); the residual stays as it is.
+BadInputs settle_pixels(const KernelStep& step, const float* luminance_lux, std::uint32_t count,
+                        PixelBlock& block);
 
 }  // namespace nightjar::sim

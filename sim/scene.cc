@@ -65,6 +65,10 @@ Eigen::Isometry3d Scene::T_world_body(int body) const {
   return isometry(data_->xpos + 3 * body, data_->xmat + 9 * body);
 }
 
+Eigen::Isometry3d Scene::T_world_geom(int geom) const {
+  return isometry(data_->geom_xpos + 3 * geom, data_->geom_xmat + 9 * geom);
+}
+
 Eigen::Isometry3d Scene::T_world_site(int site) const {
   return isometry(data_->site_xpos + 3 * site, data_->site_xmat + 9 * site);
 }

@@ -25,8 +25,9 @@ class Scene {
   /// std::invalid_argument naming the file when the scene lacks it.
   int id(int type, const std::string& name) const;
 
-  /// Pose of a body's frame, a site, a camera (MuJoCo's axes: looks along -z).
+  /// Pose of a body's frame, a geom, a site, a camera (MuJoCo's axes: looks along -z).
   Eigen::Isometry3d T_world_body(int body) const;
+  Eigen::Isometry3d T_world_geom(int geom) const;
   Eigen::Isometry3d T_world_site(int site) const;
   Eigen::Isometry3d T_world_camera(int camera) const;
 

@@ -13,9 +13,10 @@ SimulatedCamera::SimulatedCamera(const SensorConfig& config, core::Resolution si
 
 void SimulatedCamera::expose(core::Time t, const core::Image<float>& luminance_lux) {
   requests_.clear();
-  emulator_.step(t, luminance_lux, requests_);
-  readout_.step(t, requests_, events_);
-  if (auto frame = aps_.add(t, luminance_lux)) frames_.push_back(std::move(*frame));
+  emulating_([&] { emulator_.step(t, luminance_lux, requests_); });
+  reading_out_([&] { readout_.step(t, requests_, events_); });
+  if (auto frame = exposing_([&] { return aps_.add(t, luminance_lux); }))
+    frames_.push_back(std::move(*frame));
   now_ = t;
 }
 
@@ -24,6 +25,10 @@ core::EventPacket SimulatedCamera::take_packet() {
   core::EventPacket packet{std::exchange(packet_begin_, now_), now_, std::move(events_)};
   events_.clear();
   return packet;
+}
+
+std::vector<core::StageTime> SimulatedCamera::stage_times() const {
+  return {emulating_.time(), reading_out_.time(), exposing_.time()};
 }
 
 std::vector<core::ApsFrame> SimulatedCamera::take_frames() { return std::exchange(frames_, {}); }

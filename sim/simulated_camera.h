@@ -5,6 +5,7 @@
 
 #include "core/event.h"
 #include "core/image.h"
+#include "core/stage_timer.h"
 #include "sim/aps.h"
 #include "sim/background_activity_filter.h"
 #include "sim/emulator.h"
@@ -31,6 +32,7 @@ class SimulatedCamera {
 
   const EmulatorCounts& pixel_counts() const { return emulator_.counts(); }
   const ReadoutCounts& readout_counts() const { return readout_.counts(); }
+  std::vector<core::StageTime> stage_times() const;
 
  private:
   EventEmulator emulator_;
@@ -42,6 +44,9 @@ class SimulatedCamera {
   std::vector<core::Event> requests_;
   std::vector<core::Event> events_;
   std::vector<core::ApsFrame> frames_;
+  core::StageTimer emulating_{"emulate pixels", "camera"};
+  core::StageTimer reading_out_{"read out", "camera"};
+  core::StageTimer exposing_{"expose APS", "camera"};
 };
 
 }  // namespace nightjar::sim

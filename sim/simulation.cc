@@ -4,8 +4,17 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace nightjar::sim {
+
+core::Time render_interval(const RendererConfig& config, double motion_px_s, core::Time step) {
+  const double wanted_s =
+      std::min(config.max_motion_px / std::max(motion_px_s, 1e-9), 1e-3 * config.max_interval_ms);
+  // Rounded down, or it would be too late.
+  const auto steps = static_cast<std::int64_t>(wanted_s / core::seconds(step) * (1 + 1e-12));
+  return std::max<std::int64_t>(1, steps) * step;
+}
 
 Simulation::Simulation(const WorldConfig& world, const CameraConfig& camera,
                        const SensorConfig& sensor, const std::filesystem::path& model_file,
@@ -13,40 +22,61 @@ Simulation::Simulation(const WorldConfig& world, const CameraConfig& camera,
     : renderer_config_(world.renderer),
       illuminance_lux_(illuminance_lux),
       packet_interval_(core::from_seconds(1e-3 * camera.packet_interval_ms)),
-      world_(world, camera, model_file, seed),
-      camera_(sensor, world_.camera_model().size, illuminance_lux, seed) {
+      world_(world, camera, model_file, seed, sensor.imu),
+      camera_(sensor, world_.camera_model().size, illuminance_lux, seed),
+      camera_thread_(camera_) {
   if (packet_interval_ % world_.time_step() != core::Time(0))
     throw std::invalid_argument(
         fmt::format("camera.packet_interval_ms = {}, allowed multiples of the model's time step, "
                     "{} us",
                     camera.packet_interval_ms, world_.time_step().count()));
-  render();
+  render(false);
 }
 
-void Simulation::render() {
-  world_.draw(illuminance_lux_, luminance_lux_);
-  camera_.expose(world_.now(), luminance_lux_);
-  ++renders_;
+void Simulation::render(bool ends_packet) {
+  core::Image<float>& picture = drawing_ahead_([this]() -> auto& { return camera_thread_.next(); });
+  drawing_([&] { world_.draw(illuminance_lux_, picture); });
+  camera_thread_.expose(world_.now(), ends_packet);
 }
 
-core::Time Simulation::next_render(core::Time packet_end) const {
-  const double motion_px_s = world_.image_motion_px_s();
-  const double wanted_s = std::min(renderer_config_.max_motion_px / std::max(motion_px_s, 1e-9),
-                                   1e-3 * renderer_config_.max_interval_ms);
-  const core::Time step = world_.time_step();
-  const auto steps = std::max<std::int64_t>(1, core::from_seconds(wanted_s) / step);
-  return std::min(packet_end, world_.now() + steps * step);
+std::vector<core::StageTime> Simulation::stage_times() const {
+  std::vector<core::StageTime> times = {moving_.time(), bounding_.time(), drawing_.time(),
+                                        drawing_ahead_.time(), waiting_.time()};
+  const std::vector<core::StageTime> camera = camera_.stage_times();
+  times.insert(times.end(), camera.begin(), camera.end());
+  return times;
 }
 
-SimulationStep Simulation::advance(const core::AttitudeSetpoint& setpoint) {
+void Simulation::fly(const core::AttitudeSetpoint& setpoint) {
   world_.command(setpoint);
   const core::Time packet_end = world_.now() + packet_interval_;
   while (world_.now() < packet_end) {
-    const core::Time due = next_render(packet_end);
-    while (world_.now() < due) world_.step();
-    render();
+    const double motion_px_s = bounding_([this] { return world_.image_motion_px_s(); });
+    const core::Time due =
+        std::min(packet_end,
+                 world_.now() + render_interval(renderer_config_, motion_px_s, world_.time_step()));
+    moving_([&] {
+      while (world_.now() < due) world_.step();
+    });
+    render(due == packet_end);
   }
-  return {camera_.take_packet(), camera_.take_frames(), world_.vehicle_state(), world_.truth()};
+  const std::lock_guard lock(mutex_);
+  flown_.push_back({{}, {}, world_.take_imu(), world_.vehicle_state(), world_.truth()});
+}
+
+SimulationStep Simulation::take() {
+  CameraOutput camera = waiting_([this] { return camera_thread_.take(); });
+  const std::lock_guard lock(mutex_);
+  SimulationStep step = std::move(flown_.front());
+  flown_.pop_front();
+  step.packet = std::move(camera.packet);
+  step.frames = std::move(camera.frames);
+  return step;
+}
+
+SimulationStep Simulation::advance(const core::AttitudeSetpoint& setpoint) {
+  fly(setpoint);
+  return take();
 }
 
 }  // namespace nightjar::sim

@@ -1,10 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <filesystem>
+#include <mutex>
 #include <vector>
 
+#include "core/imu.h"
 #include "core/truth.h"
+#include "sim/camera_thread.h"
 #include "sim/simulated_camera.h"
 #include "sim/world.h"
 
@@ -14,9 +18,15 @@ namespace nightjar::sim {
 struct SimulationStep {
   core::EventPacket packet;
   std::vector<core::ApsFrame> frames;
-  core::VehicleState vehicle;  ///< the autopilot's estimate at packet.end
-  core::Truth truth;           ///< at packet.end
+  std::vector<core::ImuSample> imu;  ///< those of the packet's time
+  core::VehicleState vehicle;        ///< the autopilot's estimate at packet.end
+  core::Truth truth;                 ///< at packet.end
 };
+
+/// How long after one render the next is due, when what is in view moves at
+/// `motion_px_s`: before it may have moved max_motion_px, in whole physics steps, at
+/// least one.
+core::Time render_interval(const RendererConfig& config, double motion_px_s, core::Time step);
 
 /// The world seen through the event camera, packet by packet.
 class Simulation {
@@ -26,28 +36,42 @@ class Simulation {
   Simulation(const WorldConfig& world, const CameraConfig& camera, const SensorConfig& sensor,
              const std::filesystem::path& model_file, double illuminance_lux, std::uint64_t seed);
 
-  /// Flies under `setpoint` to the end of the next packet. A render comes as soon as
-  /// a point of floor or landing board may have moved renderer.max_motion_px, in whole
-  /// physics steps (docs/decisions/0002).
+  /// Flies under `setpoint` to the end of the next packet, drawing after each
+  /// render_interval() and at the packet's end (docs/decisions/0002). The camera may
+  /// still be at work on it afterwards (docs/decisions/0003).
+  void fly(const core::AttitudeSetpoint& setpoint);
+
+  /// What the earliest packet flown and not yet taken gave; waits for the camera. May
+  /// run beside fly() of the next packet.
+  SimulationStep take();
+
+  /// Both in one.
   SimulationStep advance(const core::AttitudeSetpoint& setpoint);
 
   const World& world() const { return world_; }
   World& world() { return world_; }
+  /// The camera, to look at once every packet is taken.
   const SimulatedCamera& camera() const { return camera_; }
-  std::uint64_t renders() const { return renders_; }
+  std::uint64_t renders() const { return drawing_.time().calls; }
+  /// Of the world and of its camera.
+  std::vector<core::StageTime> stage_times() const;
 
  private:
-  void render();
-  /// When the next render is due, from the image motion now; at most `packet_end`.
-  core::Time next_render(core::Time packet_end) const;
+  void render(bool ends_packet);
 
   RendererConfig renderer_config_;
   double illuminance_lux_;
   core::Time packet_interval_;
   World world_;
   SimulatedCamera camera_;
-  core::Image<float> luminance_lux_;
-  std::uint64_t renders_ = 0;
+  core::StageTimer moving_{"step physics", "world"};
+  core::StageTimer bounding_{"bound motion", "world"};
+  core::StageTimer drawing_{"draw", "world"};
+  core::StageTimer drawing_ahead_{"wait for camera", "world"};
+  core::StageTimer waiting_{"wait for camera", "handling"};
+  std::mutex mutex_;
+  std::deque<SimulationStep> flown_;  ///< Without what the camera gives; under mutex_.
+  CameraThread camera_thread_;        // last: it uses the camera
 };
 
 }  // namespace nightjar::sim

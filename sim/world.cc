@@ -8,12 +8,8 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "sim/image_motion.h"
-
 namespace nightjar::sim {
 namespace {
-
-constexpr double kGravity_m_s2 = 9.81;
 
 const char* phase_name(CoursePhase phase) {
   for (const auto& [name, value] : kCoursePhases)
@@ -21,11 +17,15 @@ const char* phase_name(CoursePhase phase) {
   return "?";
 }
 
-core::Time whole_microseconds(double step_s) {
+core::Time checked_step(double step_s) {
   const core::Time step = core::from_seconds(step_s);
   if (step.count() < 1 || std::abs(core::seconds(step) - step_s) > 1e-12)
     throw std::invalid_argument(
         fmt::format("timestep = {} s, allowed whole microseconds from 1", step_s));
+  if (kImuInterval % step != core::Time(0))
+    throw std::invalid_argument(fmt::format(
+        "timestep = {} s, allowed whole parts of {} s, the interval of inertial samples", step_s,
+        core::seconds(kImuInterval)));
   return step;
 }
 
@@ -38,7 +38,7 @@ const Eigen::Matrix3d& R_mujoco_camera() {
 }  // namespace
 
 World::World(const WorldConfig& config, const CameraConfig& camera,
-             const std::filesystem::path& model_file, std::uint64_t seed)
+             const std::filesystem::path& model_file, std::uint64_t seed, const ImuConfig& imu)
     : scene_(model_file),
       quadrotor_(config.quadrotor, scene_),
       autopilot_(config.autopilot, quadrotor_, seed),
@@ -52,11 +52,21 @@ World::World(const WorldConfig& config, const CameraConfig& camera,
       camera_model_(core::CameraModel::from_fovy({camera.width_px, camera.height_px},
                                                  camera.fovy_deg * std::numbers::pi / 180.0)),
       renderer_(scene_, camera_model_.size, config.renderer.supersampling),
-      time_step_(whole_microseconds(scene_.model()->opt.timestep)) {
+      view_motion_(scene_),
+      time_step_(checked_step(scene_.model()->opt.timestep)) {
   scene_.model()->cam_fovy[camera_] = camera.fovy_deg;
-  setpoint_.thrust_m_s2 = kGravity_m_s2;
+  setpoint_.thrust_m_s2 = gravity_m_s2();
   place_vehicles(config);
   autopilot_.observe(scene_, now_, 0.0);
+  const mjtNum* gravity = scene_.model()->opt.gravity;
+  imu_.emplace(imu, Eigen::Vector3d(gravity[0], gravity[1], gravity[2]), camera_motion(), seed);
+}
+
+double World::gravity_m_s2() const { return -scene_.model()->opt.gravity[2]; }
+
+CameraMotion World::camera_motion() const {
+  const Eigen::Isometry3d T = T_world_camera();
+  return {Eigen::Quaterniond(T.linear()), scene_.velocity_at(quadrotor_.body(), T.translation())};
 }
 
 void World::place_vehicles(const WorldConfig& config) {
@@ -80,6 +90,7 @@ void World::step() {
   scene_.step();
   now_ += time_step_;
   autopilot_.observe(scene_, now_, dt_s);
+  if (now_ % kImuInterval == core::Time(0)) imu_samples_.push_back(imu_->next(camera_motion()));
   note_contacts();
 }
 
@@ -140,13 +151,7 @@ double World::image_motion_px_s() const {
   const int uav = quadrotor_.body();
   const Eigen::Isometry3d T = T_world_camera();
   const MovingCamera camera{T, scene_.velocity_at(uav, T.translation()), scene_.omega_world(uav)};
-  const double floor = fastest_motion_px_s(
-      camera_model_, camera, 0.0, [](const Eigen::Vector3d&) { return Eigen::Vector3d::Zero(); });
-  const double board_m = scene_.T_world_site(tag_site_).translation().z();
-  const double board = fastest_motion_px_s(
-      camera_model_, camera, board_m,
-      [this](const Eigen::Vector3d& p) { return scene_.velocity_at(ugv_body_, p); });
-  return std::max(floor, board);
+  return view_motion_.fastest_px_s(scene_, camera_model_, camera);
 }
 
 void World::draw_chase(core::Image<Rgb>& view) {

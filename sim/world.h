@@ -2,26 +2,31 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/camera_model.h"
 #include "core/truth.h"
 #include "sim/autopilot.h"
 #include "sim/config.h"
+#include "sim/imu.h"
 #include "sim/quadrotor.h"
 #include "sim/renderer.h"
 #include "sim/scene.h"
 #include "sim/ugv.h"
+#include "sim/view_motion.h"
 
 namespace nightjar::sim {
 
 /// UAV, UGV and arena: physics, inner loops and what a camera sees of them.
 class World {
  public:
-  /// Throws std::invalid_argument for a model that lacks a part or a time step
-  /// that is not a whole number of microseconds.
+  /// Throws std::invalid_argument for a model that lacks a part or a time step that is
+  /// not a whole number of microseconds and a whole part of kImuInterval.
   World(const WorldConfig& config, const CameraConfig& camera,
-        const std::filesystem::path& model_file, std::uint64_t seed);
+        const std::filesystem::path& model_file, std::uint64_t seed, const ImuConfig& imu = {});
 
   core::Time now() const { return now_; }
   core::Time time_step() const { return time_step_; }
@@ -36,11 +41,17 @@ class World {
   const core::VehicleState& vehicle_state() const { return autopilot_.state(); }
   core::Truth truth() const;
 
+  /// What the camera's inertial sensor felt since the last call.
+  std::vector<core::ImuSample> take_imu() { return std::exchange(imu_samples_, {}); }
+
+  /// Of the model, positive downwards.
+  double gravity_m_s2() const;
+
   const core::CameraModel& camera_model() const { return camera_model_; }
   /// Where the camera sits on the UAV.
   Eigen::Isometry3d T_body_camera() const;
 
-  /// Fastest image motion (px/s) of the floor or the landing board at this moment.
+  /// An upper bound of the image motion (px/s) of all the camera sees at this moment.
   double image_motion_px_s() const;
 
   /// What the UAV's camera sees (Renderer::draw).
@@ -55,6 +66,7 @@ class World {
 
  private:
   Eigen::Isometry3d T_world_camera() const;
+  CameraMotion camera_motion() const;
   void place_vehicles(const WorldConfig& config);
   bool is_foot(int geom) const;
   /// On the board is a foot on the board; whatever else the UAV touches is a crash.
@@ -68,9 +80,12 @@ class World {
   std::array<int, 4> foot_geoms_;
   core::CameraModel camera_model_;
   Renderer renderer_;
+  ViewMotion view_motion_;
   core::Time time_step_;
   core::Time now_{};
   core::AttitudeSetpoint setpoint_;
+  std::optional<Imu> imu_;  ///< From when the vehicles stand in their places.
+  std::vector<core::ImuSample> imu_samples_;
   bool on_board_ = false, crashed_ = false, ugv_collided_ = false;
   double chase_azimuth_deg_ = 0;
   bool chase_started_ = false;

@@ -5,10 +5,12 @@
 #include <stdexcept>
 #include <string>
 
+#include "tools/emulate_command.h"
 #include "tools/exit_code.h"
 #include "tools/interrupt.h"
 #include "tools/parameters_command.h"
 #include "tools/run_command.h"
+#include "tools/sensor_report_command.h"
 
 namespace {
 
@@ -28,7 +30,9 @@ int main(int argc, char** argv) {
   app.require_subcommand(0, 1);  // none is refused below, after a misspelt one
   int exit_code = kPassed;
   add_run_command(app, exit_code);
+  add_emulate_command(app);
   add_parameters_command(app);
+  add_sensor_report_command(app);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty())

@@ -28,6 +28,7 @@ struct Arguments {
   std::optional<int> seed;
   bool no_video = false;
   bool record_events = false;
+  bool profile = false;
   bool json = false;
   bool quiet = false;
 };
@@ -53,6 +54,8 @@ void declare(CLI::App& command, Arguments& arguments) {
   command.add_flag("--no-video", arguments.no_video, "leave out run.mp4, which takes time");
   command.add_flag("--record-events", arguments.record_events,
                    "add the raw events to run.lcm: about a gigabyte a minute");
+  command.add_flag("--profile", arguments.profile,
+                   "also print what each stage of the loop took (wall time)");
   command.add_flag("--json", arguments.json, "print summary.json instead of a table");
   command.add_flag("--quiet", arguments.quiet, "no progress, no log, no table");
   command.footer(kExamples);
@@ -91,6 +94,7 @@ int run(const Arguments& arguments) {
     std::cout << to_json(summary);
   else if (!arguments.quiet)
     std::cout << to_table(summary);
+  if (arguments.profile && !arguments.json) std::cout << '\n' << profile_table(summary);
   return summary.passed ? kPassed : kFailed;
 }
 

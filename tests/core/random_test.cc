@@ -51,6 +51,24 @@ TEST(Random, NormalHasMeanZeroAndVarianceOne) {
   EXPECT_NEAR(squares / kDraws, 1.0, 5 * std::sqrt(2.0 / kDraws));  // variance of a chi-square
 }
 
+TEST(Random, APairBeginsWithWhatNormalGivesAndIsUncorrelated) {
+  constexpr int kPairs = 100000;
+  Random one = random_stream(3, "normal"), two = random_stream(3, "normal");
+  double sum = 0, squares = 0, products = 0;
+  for (int i = 0; i < kPairs; ++i) {
+    const auto [a, b] = normal_pair(two);
+    ASSERT_EQ(a, normal(one));
+    sum += b;
+    squares += b * b;
+    products += a * b;
+  }
+  // 5 sigma of means whose terms have the variances 1, 2 and 1.
+  const double sigma = 1 / std::sqrt(kPairs);
+  EXPECT_NEAR(sum / kPairs, 0, 5 * sigma);
+  EXPECT_NEAR(squares / kPairs, 1, 5 * std::sqrt(2.0) * sigma);
+  EXPECT_NEAR(products / kPairs, 0, 5 * sigma);
+}
+
 TEST(Random, ExponentialHasMeanOne) {
   Random random = random_stream(3, "exponential");
   double sum = 0;

@@ -43,6 +43,12 @@ class AnyValues {
     for (std::uint8_t& pixel : image.pixels()) pixel = static_cast<std::uint8_t>(bits());
     return image;
   }
+  core::ApsFrame frame(core::Resolution size, int frame_bits) {
+    core::ApsFrame frame{time(), time(), frame_bits, core::Image<std::uint16_t>(size)};
+    for (std::uint16_t& pixel : frame.gray.pixels())
+      pixel = static_cast<std::uint16_t>(bits() >> (64 - frame_bits));
+    return frame;
+  }
   core::TagDetection tag(core::Time t) {
     core::TagDetection tag;
     tag.t = t;
@@ -146,11 +152,41 @@ TEST(Convert, PicturesKeepEveryBit) {
 
 TEST(Convert, ApsFramesKeepEveryBit) {
   AnyValues any(3);
-  const core::ApsFrame sent{any.time(), any.time(), any.image({346, 260})};
-  const core::ApsFrame got = round_trip(sent);
-  EXPECT_EQ(got.exposure_begin, sent.exposure_begin);
-  EXPECT_EQ(got.exposure_end, sent.exposure_end);
-  EXPECT_EQ(got.gray, sent.gray);
+  for (const int bits : {8, 10}) {
+    const core::ApsFrame sent = any.frame({346, 260}, bits);
+    EXPECT_EQ(std::ranges::max(sent.gray.pixels()), (1 << bits) - 1);
+    const core::ApsFrame got = round_trip(sent);
+    EXPECT_EQ(got.exposure_begin, sent.exposure_begin);
+    EXPECT_EQ(got.exposure_end, sent.exposure_end);
+    EXPECT_EQ(got.bits, bits);
+    EXPECT_EQ(got.gray, sent.gray);
+  }
+}
+
+TEST(Convert, ApsFramesBeyondTheirBitsAreRefused) {
+  AnyValues any(12);
+  core::ApsFrame frame = any.frame({4, 3}, 10);
+  frame.gray(1, 1) = 1024;
+  EXPECT_THROW(encode(frame), std::invalid_argument);
+  for (const int bits : {-1, 0, 9, 16, 40}) {
+    frame = any.frame({4, 3}, 8);
+    frame.bits = bits;
+    EXPECT_THROW(encode(frame), std::invalid_argument) << bits;
+  }
+  Bytes bytes = encode(any.frame({4, 3}, 8));
+  bytes[40] = 1;  // higher byte of the first pixel: 256 or more
+  EXPECT_THROW(decode<core::ApsFrame>(bytes), std::invalid_argument);
+}
+
+TEST(Convert, ImuSamplesKeepEveryBit) {
+  AnyValues any(13);
+  for (int round = 0; round < kRounds; ++round) {
+    const core::ImuSample sent{any.time(), any.vector(), any.vector()};
+    const core::ImuSample got = round_trip(sent);
+    EXPECT_EQ(got.t, sent.t);
+    EXPECT_TRUE(same(got.omega_camera_rad_s, sent.omega_camera_rad_s));
+    EXPECT_TRUE(same(got.specific_force_camera_m_s2, sent.specific_force_camera_m_s2));
+  }
 }
 
 TEST(Convert, TagDetectionsKeepEveryBit) {
@@ -257,16 +293,17 @@ TEST(Convert, TruthKeepsEveryBit) {
 
 TEST(Convert, EveryMessageHoldsItsTimeFirst) {
   const core::Time t = 123'456'789'012us;
+  core::ImuSample imu;
   core::TargetEstimate estimate;
   core::VehicleState state;
   core::AttitudeSetpoint setpoint;
   core::MissionTransition transition;
   core::Truth truth;
-  estimate.t = state.t = setpoint.t = transition.t = truth.t = t;
+  imu.t = estimate.t = state.t = setpoint.t = transition.t = truth.t = t;
   for (const Bytes& bytes :
        {encode(core::EventPacket{t - 10ms, t, {}}), encode(core::Picture{t, {}}),
-        encode(core::ApsFrame{t - 500ms, t, {}}), encode(TagDetections{t, {}}), encode(estimate),
-        encode(state), encode(setpoint), encode(transition), encode(truth)})
+        encode(core::ApsFrame{t - 500ms, t, 10, {}}), encode(imu), encode(TagDetections{t, {}}),
+        encode(estimate), encode(state), encode(setpoint), encode(transition), encode(truth)})
     EXPECT_EQ(message_time(bytes), t);
   EXPECT_THROW(message_time(Bytes(15)), std::invalid_argument);
 }
@@ -288,7 +325,8 @@ std::vector<Sample> samples() {
   AnyValues any(9);
   return {sample("events", core::EventPacket{0us, 9us, {{1us, 2, 3, true}, {4us, 5, 6, false}}}),
           sample("picture", core::Picture{1us, any.image({4, 3})}),
-          sample("aps_frame", core::ApsFrame{1us, 2us, any.image({4, 3})}),
+          sample("aps_frame", any.frame({4, 3}, 10)),
+          sample("imu_sample", core::ImuSample{}),
           sample("tag_detections", TagDetections{1us, {any.tag(1us), any.tag(1us)}}),
           sample("target_estimate", core::TargetEstimate{}),
           sample("vehicle_state", core::VehicleState{}),

@@ -7,7 +7,9 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <limits>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,11 @@ class ScenarioTest : public testing::Test {
     const fs::path path = folder_ / "dark.yaml";
     std::ofstream(path, std::ios::binary) << text;
     return path;
+  }
+
+  static std::string read(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
   }
 
   // What load() says about a file with `text`, without the folder.
@@ -131,6 +138,25 @@ TEST_F(ScenarioTest, SavesThePixelsOfACustomSensor) {
   EXPECT_EQ(load(folder_ / "scenario.yaml").sensor.pixel.cutoff_hz, 123.456);
 }
 
+TEST_F(ScenarioTest, SavesThePixelsThatAPresetStandsForAsAComment) {
+  const std::string model = "model: models/arena.xml\nilluminance_lux: 2\n";
+  const Scenario scenario = load(write(model));
+  save(scenario, folder_ / "saved.yaml");
+  const std::string text = read(folder_ / "saved.yaml");
+  EXPECT_NE(text.find("\n#   cutoff_hz: 12  # 0 to 100000\n"), std::string::npos) << text;
+  EXPECT_EQ(to_yaml(load(folder_ / "saved.yaml")), to_yaml(scenario));
+
+  // Uncommented, it is the custom sensor that runs alike.
+  std::string custom = model + "sensor:\n  preset: custom\n  pixel:\n";
+  std::istringstream lines(text.substr(text.find("#   threshold_on_log")));
+  for (std::string line; std::getline(lines, line);) custom += "    " + line.substr(4) + '\n';
+  const Scenario same = load(write(custom));
+  EXPECT_EQ(to_yaml(sim::effective_pixel(same.sensor, 2)),
+            to_yaml(sim::effective_pixel(scenario.sensor, 2)));
+  save(same, folder_ / "custom.yaml");
+  EXPECT_EQ(read(folder_ / "custom.yaml").find("#   "), std::string::npos);
+}
+
 TEST_F(ScenarioTest, SaysWhenItCannotSave) {
   const Scenario scenario = load(write("model: models/arena.xml\n"));
   EXPECT_THROW(save(scenario, folder_ / "none" / "scenario.yaml"), ScenarioError);
@@ -154,23 +180,25 @@ class Collector {
     std::string path;
   };
 
-  void field(const char* name, double& value, double least, double greatest) {
+  void field(const char* name, double& value, double least, double greatest,
+             const core::Origin& = {}) {
     numbers.push_back(
         {[&value](double v) { value = v; }, value, least, greatest, false, path + name});
   }
-  void field(const char* name, int& value, int least, int greatest) {
+  void field(const char* name, int& value, int least, int greatest, const core::Origin& = {}) {
     const auto set = [&value](double v) { value = static_cast<int>(v); };
     numbers.push_back({set, static_cast<double>(value), static_cast<double>(least),
                        static_cast<double>(greatest), true, path + name});
   }
   template <std::size_t N>
-  void field(const char* name, std::array<double, N>& values, double least, double greatest) {
+  void field(const char* name, std::array<double, N>& values, double least, double greatest,
+             const core::Origin& = {}) {
     for (double& value : values) field(name, value, least, greatest);
   }
-  void field(const char*, bool&) {}
-  void field(const char*, std::string&) {}
+  void field(const char*, bool&, const core::Origin& = {}) {}
+  void field(const char*, std::string&, const core::Origin& = {}) {}
   template <class Enum, std::size_t N>
-  void choice(const char*, Enum&, const core::Choices<Enum, N>&) {}
+  void choice(const char*, Enum&, const core::Choices<Enum, N>&, const core::Origin& = {}) {}
   template <class Config>
   void section(const char* name, Config& config) {
     const std::string outer = path;

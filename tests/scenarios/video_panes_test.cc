@@ -21,6 +21,18 @@ TEST(VideoPanes, GreyLevelsBecomeSquaresInTheirPlaces) {
     }
 }
 
+TEST(VideoPanes, TenBitFramesKeepTheirUpperEight) {
+  core::ApsFrame frame{0us, 1us, 10, core::Image<std::uint16_t>(kSize)};
+  frame.gray(1, 0) = 1023;
+  frame.gray(2, 1) = 4 * 77 + 3;
+  EXPECT_EQ(gray_8_bit(frame)(1, 0), 255);
+  EXPECT_EQ(gray_8_bit(frame)(2, 1), 77);
+  frame.bits = 8;
+  frame.gray(1, 0) = 200;
+  EXPECT_EQ(gray_8_bit(frame)(1, 0), 200);
+  EXPECT_TRUE(gray_8_bit({}).empty());
+}
+
 TEST(VideoPanes, NoPictureYetIsBlack) {
   const Pane pane = gray_pane({}, kSize);
   EXPECT_EQ(pane, Pane(pane.size(), sim::Rgb{0, 0, 0}));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -18,7 +19,7 @@ ApsConfig noiseless() {
   return config;
 }
 
-/// Code (0..255) of a mean luminance held for `exposure_s`.
+/// Grey level (0..255) of a mean luminance held for `exposure_s`.
 double code(const ApsConfig& config, double lux, double exposure_s) {
   const double electrons = lux * exposure_s * config.electrons_per_lux_s;
   const double black = 4 * config.black_level;  // in codes of 10 bits
@@ -29,9 +30,9 @@ struct Statistics {
   double mean = 0, deviation = 0;
 };
 
-Statistics statistics(const core::Image<std::uint8_t>& gray) {
+Statistics statistics(const core::Image<std::uint16_t>& gray) {  // of 8 bits
   double sum = 0, squares = 0;
-  for (const std::uint8_t g : gray.pixels()) {
+  for (const std::uint16_t g : gray.pixels()) {
     sum += g + 0.375;  // a code of 8 bits stands for four of 10: 0, 1/4, 1/2, 3/4
     squares += (g + 0.375) * (g + 0.375);
   }
@@ -187,6 +188,79 @@ TEST(ApsSensor, saturates_and_bears_unusable_radiance) {
   EXPECT_LT(frame->gray(1, 0), 30);
   EXPECT_EQ(frame->gray(2, 0), 255);
   EXPECT_EQ(frame->gray(3, 3), 255);
+  EXPECT_EQ(sensor.bad_radiance(), 3u * 11);  // 11 pictures
+}
+
+TEST(ApsSensor, good_radiance_is_not_counted) {
+  ApsSensor sensor({}, kSize, 5, 8);
+  frames(sensor, 0.0, Time(100'000), Time(10'000));
+  EXPECT_EQ(sensor.bad_radiance(), 0u);
+}
+
+TEST(ApsSensor, eight_bits_are_the_upper_ones_of_ten) {
+  ApsConfig ten;
+  ten.bits = ApsBits::ten;
+  for (const double lux : {0.0, 3.0, 1000.0}) {
+    ApsSensor sensor_8({}, kSize, 5, 10), sensor_10(ten, kSize, 5, 10);
+    const auto frame_8 = frames(sensor_8, lux, Time(500'000), Time(10'000)).at(0);
+    const auto frame_10 = frames(sensor_10, lux, Time(500'000), Time(10'000)).at(0);
+    EXPECT_EQ(frame_8.bits, 8);
+    EXPECT_EQ(frame_10.bits, 10);
+    for (std::size_t p = 0; p < frame_8.gray.pixels().size(); ++p)
+      EXPECT_EQ(frame_8.gray.pixels()[p], frame_10.gray.pixels()[p] / 4);
+    if (lux == 1000.0) {
+      EXPECT_EQ(std::ranges::max(frame_10.gray.pixels()), 1023);
+    }
+  }
+}
+
+TEST(ApsSensor, switching_an_effect_off_leaves_the_draws_of_all_others) {
+  // All pixels of two frames in electrons; a grey level of ten bits stands for 5 of them.
+  const auto electrons = [](double read_noise_e, double offset_fpn_e, double gain_fpn) {
+    ApsConfig config;
+    config.bits = ApsBits::ten;
+    config.full_well_e = 5 * (1023 - 64);
+    config.electrons_per_lux_s = 1000;
+    config.read_noise_e = read_noise_e;
+    config.offset_fpn_e = offset_fpn_e;
+    config.gain_fpn = gain_fpn;
+    ApsSensor sensor(config, kSize, 5, 12);
+    std::vector<double> all;
+    for (const auto& frame : frames(sensor, 4, Time(1'000'000), Time(50'000)))
+      for (const std::uint16_t gray : frame.gray.pixels()) all.push_back(5.0 * (gray - 64));
+    return all;
+  };
+  constexpr double kRead = 100, kOffset = 200, kGain = 0.1, kPhoto = 4 * 0.5 * 1000;
+  const auto all = electrons(kRead, kOffset, kGain);
+  const auto without_read = electrons(0, kOffset, kGain);
+  const auto without_offset = electrons(kRead, 0, kGain);
+  const auto without_gain = electrons(kRead, kOffset, 0);
+  const auto shot = electrons(0, 0, 0), read = electrons(kRead, 0, 0);
+  const auto offset = electrons(0, kOffset, 0), gain = electrons(0, 0, kGain);
+  ASSERT_EQ(all.size(), 2u * kSize.pixels());
+  // Shot and read noise are one draw n: n sqrt(shot^2 + read^2). A pixel's gain moves its
+  // shot noise, too: by 4 deviations of 10 % in sqrt(2000), 4 deviations of n.
+  const double kMixed = 4 * std::sqrt(kPhoto) * (1 - std::sqrt(1 - 4 * kGain));
+  const double kRounding = 4 * 2.5;  // four numbers, each to 5 electrons
+  for (std::size_t p = 0; p < all.size(); ++p) {
+    EXPECT_NEAR(all[p] - without_offset[p], offset[p] - shot[p], kRounding);
+    EXPECT_NEAR(all[p] - without_gain[p], gain[p] - shot[p], kRounding + kMixed);
+    EXPECT_NEAR(all[p] - without_read[p], read[p] - shot[p], kRounding + kMixed);
+    EXPECT_NEAR((read[p] - kPhoto) / std::hypot(kRead, std::sqrt(kPhoto)),
+                (shot[p] - kPhoto) / std::sqrt(kPhoto), 2.5 / 109 + 2.5 / 44 + 1e-3);
+  }
+  // And no draw repeats another's: correlations of one frame's pixels, 5 deviations.
+  double offset_gain = 0, offset_shot = 0, gain_shot = 0;
+  const std::size_t n = all.size() / 2;
+  for (std::size_t p = 0; p < n; ++p) {
+    const double o = (offset[p] - shot[p]) / kOffset, g = (gain[p] - shot[p]) / (kGain * kPhoto);
+    const double s = (shot[p] - kPhoto) / std::sqrt(kPhoto);
+    offset_gain += o * g;
+    offset_shot += o * s;
+    gain_shot += g * s;
+  }
+  for (const double sum : {offset_gain, offset_shot, gain_shot})
+    EXPECT_NEAR(sum / static_cast<double>(n), 0, 5 / std::sqrt(n));
 }
 
 TEST(ApsSensor, wrong_input_is_refused) {

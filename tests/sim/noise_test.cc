@@ -137,21 +137,5 @@ TEST(HotPixels, more_of_them_leave_the_first_ones_as_they_were) {
   }
 }
 
-TEST(LeakDeviation, is_close_to_a_standard_normal) {
-  constexpr int kDraws = 200'000;
-  double sum = 0, squares = 0, within_1 = 0;
-  for (int i = 0; i < kDraws; ++i) {
-    const double d = leak_deviation(8, static_cast<std::uint32_t>(i % 1000),
-                                    static_cast<std::uint32_t>(i / 1000));
-    sum += d;
-    squares += d * d;
-    within_1 += std::abs(d) < 1;
-  }
-  const double root = std::sqrt(static_cast<double>(kDraws));
-  EXPECT_NEAR(sum / kDraws, 0, 5 / root);
-  EXPECT_NEAR(squares / kDraws, 1, 5 * std::sqrt(1.7) / root);  // kurtosis 2.7 of four uniforms
-  EXPECT_NEAR(within_1 / kDraws, 0.68, 0.02);                   // a normal's share, roughly
-}
-
 }  // namespace
 }  // namespace nightjar::sim

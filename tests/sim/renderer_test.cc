@@ -82,6 +82,42 @@ TEST_F(RendererTest, SupersamplingChangesEdgesAndNoFlatArea) {
   EXPECT_GT(between, 10);  // of some 45 pixels along the square's edges
 }
 
+TEST_F(RendererTest, IsLinearUpToTwiceWhiteAndCutOffBeyond) {
+  const auto white_square = [&](const char* ambient, const char* emission) {
+    std::string model = kModel;
+    model.replace(model.find("0.25 0.25 0.25"), 14, ambient);
+    model.replace(model.find("<worldbody>"), 11,
+                  std::string("<asset><material name=\"lamp\" rgba=\"1 1 1 1\" emission=\"") +
+                      emission + "\"/></asset><worldbody>");
+    model.replace(model.find("rgba=\"1 1 1 1\"/>\n    <camera"), 16, "material=\"lamp\"/>");
+    std::ofstream(scratch_ / "lamp.xml") << model;
+    Scene scene(scratch_ / "lamp.xml");
+    core::Image<float> luminance_lux;
+    Renderer(scene, kSize, 1)
+        .draw(scene, scene.id(mjOBJ_CAMERA, "down"), kWhite_lux, luminance_lux);
+    return luminance_lux(15, 12) / kWhite_lux;
+  };
+  constexpr double kTwoCodes = 2 * Renderer::kBrightest / 65535;
+  EXPECT_NEAR(white_square("0.25 0.25 0.25", "0"), 1.0, kTwoCodes);
+  EXPECT_NEAR(white_square("1.05 1.05 1.05", "0"), 1.8, kTwoCodes);
+  EXPECT_NEAR(white_square("0.25 0.25 0.25", "0.5"), 1.5, kTwoCodes);
+  EXPECT_NEAR(white_square("1.05 1.05 1.05", "0.5"), Renderer::kBrightest, kTwoCodes);
+}
+
+TEST_F(RendererTest, LightsThatWouldBeCutOffAreRefused) {
+  std::string model = kModel;
+  model.replace(model.find("0.25 0.25 0.25"), 14, "1.3 1.3 1.3");
+  std::ofstream(scratch_ / "glaring.xml") << model;
+  Scene scene(scratch_ / "glaring.xml");
+  try {
+    Renderer renderer(scene, kSize, 1);
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& e) {
+    EXPECT_NE(std::string(e.what()).find("add up to 2.05, allowed 0 to 2"), std::string::npos)
+        << e.what();
+  }
+}
+
 TEST_F(RendererTest, ACameraThatIsNotThereIsRefusedByItsName) {
   try {
     scene_.id(mjOBJ_CAMERA, "up");

@@ -12,10 +12,12 @@ namespace {
 
 /// The names of what a visit offers, sections only.
 struct Sections {
-  template <class... T>
-  void field(T&&...) {}
-  template <class... T>
-  void choice(T&&...) {}
+  template <class T>
+  void field(const char*, T&, double, double, const core::Origin& = {}) {}
+  template <class T>
+  void field(const char*, T&, const core::Origin& = {}) {}
+  template <class Enum, std::size_t N>
+  void choice(const char*, Enum&, const core::Choices<Enum, N>&, const core::Origin& = {}) {}
   template <class Config>
   void section(const char* name, Config&) {
     names.emplace_back(name);
@@ -37,6 +39,20 @@ TEST(SensorConfig, defaults_and_presets_are_within_their_ranges) {
     EXPECT_NO_THROW(core::check_config(preset_pixel(preset, 5), "pixel"));
   for (double lux = 1e-3; lux < 1e6; lux *= 2)
     EXPECT_NO_THROW(core::check_config(preset_pixel(SensorPreset::by_illuminance, lux), "pixel"));
+}
+
+TEST(SensorConfig, the_presets_are_v2es) {
+  // v2ecore, cac6384: threshold, mismatch, cutoff, leak, shot noise, refractory time.
+  const auto values = [](SensorPreset preset) {
+    const PixelConfig p = preset_pixel(preset, 5);
+    EXPECT_EQ(p.threshold_on_log, p.threshold_off_log);
+    EXPECT_EQ(p.threshold_on_sigma_log, p.threshold_off_sigma_log);
+    return std::vector<double>{p.threshold_on_log, p.threshold_on_sigma_log, p.cutoff_hz,
+                               p.leak_rate_hz,     p.shot_noise_rate_hz,     p.refractory_us};
+  };
+  EXPECT_EQ(values(SensorPreset::clean), (std::vector{0.2, 0.02, 0.0, 0.0, 0.0, 0.0}));
+  EXPECT_EQ(values(SensorPreset::bright), (std::vector{0.2, 0.03, 300.0, 0.01, 0.001, 500.0}));
+  EXPECT_EQ(values(SensorPreset::dim), (std::vector{0.2, 0.05, 30.0, 0.1, 5.0, 0.0}));
 }
 
 TEST(SensorConfig, a_pixel_section_exists_only_where_it_has_an_effect) {

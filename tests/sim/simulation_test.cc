@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <map>
+#include <string>
+
 #include "tests/support/sim_scene.h"
 
 namespace nightjar::sim {
@@ -61,6 +65,27 @@ TEST(Simulation, ApsFramesTakeTheExposureThatTheLightNeeds) {
   EXPECT_EQ(frames[0].exposure_end - frames[0].exposure_begin, 500ms);
 }
 
+TEST(Simulation, ImuSamplesFollowEachOtherEveryMillisecond) {
+  const auto simulation = make(1);
+  core::Time t{};
+  for (int i = 0; i < 3; ++i)
+    for (const core::ImuSample& sample : simulation->advance(hover()).imu) {
+      t += 1ms;
+      EXPECT_EQ(sample.t, t);
+    }
+  EXPECT_EQ(t, 30ms);
+}
+
+TEST(Simulation, StageTimesCountEveryRender) {
+  const auto simulation = make(1);
+  simulation->advance(hover());
+  std::map<std::string, std::uint64_t> calls;
+  for (const core::StageTime& time : simulation->stage_times()) calls[time.stage] = time.calls;
+  EXPECT_EQ(calls.at("draw"), simulation->renders());
+  EXPECT_EQ(calls.at("emulate pixels"), simulation->renders());
+  EXPECT_GT(calls.at("step physics"), 0u);
+}
+
 TEST(Simulation, DrawsMoreOftenWhenMoreMoves) {
   RendererConfig coarse;
   coarse.max_motion_px = 4.0;
@@ -73,6 +98,16 @@ TEST(Simulation, DrawsMoreOftenWhenMoreMoves) {
   }
   EXPECT_GT(fine->renders(), rough->renders());
   EXPECT_GE(rough->renders(), 60u);  // 5 ms at most between two
+}
+
+TEST(RenderInterval, is_the_last_whole_step_before_the_motion_is_too_much) {
+  const RendererConfig config;  // 0.5 px, 5 ms
+  EXPECT_EQ(render_interval(config, 0.0, 500us), 5ms);
+  EXPECT_EQ(render_interval(config, 100.0, 500us), 5ms);
+  EXPECT_EQ(render_interval(config, 125.0, 500us), 4ms);
+  EXPECT_EQ(render_interval(config, 126.0, 500us), 3500us);
+  EXPECT_EQ(render_interval(config, 1e5, 500us), 500us);
+  EXPECT_EQ(render_interval(config, std::numeric_limits<double>::infinity(), 500us), 500us);
 }
 
 TEST(Simulation, PacketIntervalMustBeWholePhysicsSteps) {

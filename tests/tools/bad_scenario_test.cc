@@ -124,6 +124,9 @@ TEST_F(BadScenarioTest, AWrongCommandLineIsRefused) {
   expect_refused("run", "SCENARIO");
   expect_refused("run dark.yaml", "--out");
   expect_refused("run dark.yaml --out results --fast", "--fast");
+  expect_refused("parameters --illuminance 5", "--presets");
+  expect_refused("parameters --presets --json", "--json");
+  expect_refused("parameters --presets --illuminance 0", "--illuminance");
 }
 
 TEST_F(BadScenarioTest, HelpIsNoError) {
@@ -132,6 +135,10 @@ TEST_F(BadScenarioTest, HelpIsNoError) {
   EXPECT_NE(out.find("Examples:"), std::string::npos);
   EXPECT_EQ(run("parameters"), 0);
   EXPECT_NE(out.find("illuminance_lux"), std::string::npos);
+  EXPECT_EQ(run("parameters --json"), 0);
+  EXPECT_EQ(out.front(), '[');
+  EXPECT_EQ(run("parameters --presets --illuminance 50"), 0);
+  EXPECT_NE(out.find("at 50 lux"), std::string::npos);
 }
 
 }  // namespace

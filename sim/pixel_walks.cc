@@ -1,0 +1,121 @@
+#include "sim/pixel_walks.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace nightjar::sim {
+
+PixelWalks::PixelWalks(const PixelConfig& config, std::uint32_t pixels, Leak leak)
+    : refractory_us_(config.refractory_us),
+      rate_per_intensity_(rate_per_intensity(config)),
+      leak_(std::move(leak)),
+      rest_until_us_(config.refractory_us > 0 ? pixels : 0, -1e300) {
+  walks_.reserve(kMostCourses);
+  open_.reserve(kMostCourses);
+}
+
+void PixelWalks::begin_step(core::Time begin, core::Time dt) {
+  begin_us_ = static_cast<double>(begin.count());
+  dt_us_ = static_cast<double>(dt.count());
+  per_us_ = 1 / dt_us_;
+}
+
+void PixelWalks::add(std::uint32_t first_pixel, std::uint32_t i, PixelBlock& block,
+                     const BlockStep& before, std::span<const NoiseCandidate> noise) {
+  const std::uint32_t k = starts_.count++;
+  starts_.change[k] = before.change[i];
+  starts_.leak_per_s[k] = block.leak_per_s[i];
+  starts_.lag[k] = before.lag[i];
+  starts_.residual[k] = before.residual[i];
+  starts_.mean_intensity[k] = 0.5f * (before.intensity[i] + block.intensity[i]);
+  walks_.push_back(
+      {{}, noise, block.threshold_on[i], block.threshold_off[i], &block, i, first_pixel + i});
+  leak_.prefetch(first_pixel + i);
+}
+
+void PixelWalks::set_off() {
+  set_up(starts_, rate_per_intensity_, dt_us_ * 1e-6);
+  open_.clear();
+  for (std::uint32_t k = 0; k < starts_.count; ++k) {
+    Walk& walk = walks_[k];
+    walk.course = starts_.course[k];
+    open_.push_back(&walk);
+    if (rest_until_us_.empty()) continue;
+    walk.awake = std::max(0.0, in_step(rest_until_us_[walk.pixel]));
+    if (walk.awake > 0 && walk.awake <= 1) walk.course.memorise(walk.course.residual(walk.awake));
+  }
+  starts_.count = 0;
+}
+
+void PixelWalks::run(FiredEvents& fired, EmulatorCounts& counts) {
+  set_off();
+  constexpr double kToleranceUs = 0.05;
+  while (!open_.empty()) {
+    crossings_.count = 0;
+    std::erase_if(open_, [&](Walk* walk) { return !go_to_crossing(*walk, fired, counts); });
+    solve(crossings_, kToleranceUs / dt_us_);
+    for (std::uint32_t k = 0; k < crossings_.count; ++k)
+      fire(*open_[k], crossings_.s[k], crossings_.level[k], crossings_.level[k] > 0, fired);
+    counts.signal += crossings_.count;
+  }
+  walks_.clear();
+}
+
+/// Fires the noise that comes before the pixel's next crossing and asks for that crossing's
+/// time. False, and the walk is finished, if there is none in this step.
+bool PixelWalks::go_to_crossing(Walk& walk, FiredEvents& fired, EmulatorCounts& counts) {
+  const double on = walk.threshold_on;
+  const double off = walk.threshold_off;
+  const auto crosses = [&](double residual, double to) {
+    // Nobody can guess the sign, so that there is no branch for it.
+    const bool up = residual >= on;
+    if (!((walk.awake < to) & (up | (residual <= -off)))) return false;
+    crossings_.add(walk.course, select(up, on, -off), walk.awake, to);
+    return true;
+  };
+  for (; !walk.noise.empty(); walk.noise = walk.noise.subspan(1)) {
+    const NoiseCandidate& noise = walk.noise.front();
+    const double s = in_step(noise.t_us);
+    if (walk.awake > s) continue;
+    const double residual = walk.course.residual(s);
+    if (crosses(residual, s)) return true;
+    ++(noise.kind == NoiseCandidate::hot ? counts.hot : counts.shot);
+    fire(walk, s, residual, noise.kind != NoiseCandidate::shot_off, fired);
+  }
+  if (crosses(walk.course.residual_at_end(), 1)) return true;
+  finish(walk);
+  return false;
+}
+
+/// One event at `s`, with the residual at `level`.
+void PixelWalks::fire(Walk& walk, double s, double level, bool on, FiredEvents& fired) {
+  // The first whole microsecond not before it, so that it lies in (begin, end].
+  const double exact_us = std::clamp(s * dt_us_, 0.5, dt_us_);
+  const auto floor_us = static_cast<std::uint32_t>(exact_us);
+  fired.add(floor_us + (floor_us < exact_us), walk.pixel, on);
+  walk.course.memorise(level);
+  if (leak_.enabled()) {
+    const float leak_per_s = leak_.next_per_s(walk.pixel);
+    walk.block->leak_per_s[walk.i] = leak_per_s;
+    walk.course.change_leak(s, leak_per_s * dt_us_ * 1e-6);
+  }
+  walk.awake = s;
+  if (rest_until_us_.empty()) return;
+  walk.awake += refractory_us_ * per_us_;
+  rest_until_us_[walk.pixel] = begin_us_ + walk.awake * dt_us_;
+  // Held in reset, it memorises what it wakes up to.
+  if (walk.awake <= 1) walk.course.memorise(walk.course.residual(walk.awake));
+}
+
+void PixelWalks::finish(Walk& walk) {
+  const bool rests = walk.awake > 1;
+  if (rests) resting_.push_back(walk.pixel);
+  walk.block->residual[walk.i] = rests ? 0.0f : static_cast<float>(walk.course.residual_at_end());
+}
+
+std::vector<std::uint32_t> PixelWalks::take_resting() {
+  std::ranges::sort(resting_);
+  return std::exchange(resting_, {});
+}
+
+}  // namespace nightjar::sim

@@ -1,0 +1,227 @@
+#include "sim/pixel_kernel.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "core/random.h"
+#include "sim/pixel_math.h"
+#include "tests/support/sim_scalar_pixel.h"
+
+namespace nightjar::sim {
+namespace {
+
+constexpr std::uint32_t kCount = PixelBlock::kPixels;
+
+/// Input and a plausible state for a kernel call.
+struct Pixels {
+  explicit Pixels(std::uint64_t seed) {
+    core::Random random = core::random_stream(seed, "kernel_test");
+    const auto uniform = [&] { return static_cast<float>(core::uniform01(random)); };
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+      luminance_lux[i] = 5 * uniform();
+      block.intensity[i] = 255 * uniform();
+      block.log_intensity[i] = static_cast<float>(
+          test::ScalarPixel::log_intensity(static_cast<double>(block.intensity[i]), 20));
+      block.lag[i] = uniform() - 0.5f;
+      block.residual[i] = 0.2f * uniform() - 0.1f;
+      block.threshold_on[i] = block.threshold_off[i] = 0.2f;
+      block.leak_per_s[i] = 0.02f;
+    }
+  }
+
+  std::array<float, kCount> luminance_lux;
+  PixelBlock block = {};
+  BlockStep step = {};
+};
+
+void expect_same_bits(const Pixels& a, const Pixels& b, const char* name) {
+  EXPECT_EQ(std::memcmp(&a.block, &b.block, sizeof(PixelBlock)), 0) << name;
+  EXPECT_EQ(std::memcmp(&a.step, &b.step, sizeof(BlockStep)), 0) << name;
+}
+
+PixelConfig quiet() {
+  PixelConfig config = preset_pixel(SensorPreset::dim, 5);
+  config.leak_rate_hz = config.shot_noise_rate_hz = config.hot_pixel_fraction = 0;
+  return config;
+}
+
+KernelStep step_of(const PixelConfig& config, double dt_s) {
+  KernelStep step = kernel_step(config, 5.0);
+  set_step(step, config, dt_s);
+  return step;
+}
+
+TEST(PixelMath, logarithm_is_good_to_single_precision) {
+  for (double x = 1e-3; x < 1e6; x *= 1.0007) {
+    const auto value = static_cast<float>(x);
+    const double truth = std::log(static_cast<double>(value));
+    // 2 ulp of a float, absolute near the zero at 1.
+    EXPECT_NEAR(fast_log(value), truth, 2.4e-7 * std::max(1.0, std::abs(truth))) << x;
+  }
+}
+
+TEST(PixelMath, one_minus_exp_keeps_its_relative_precision_down_to_nothing) {
+  for (double a = 1e-9; a < 80; a *= 1.003) {
+    const auto value = static_cast<float>(a);
+    const double truth = -std::expm1(-static_cast<double>(value));
+    EXPECT_NEAR(fast_one_minus_exp(value), truth, 2.4e-7 * truth) << a;  // 2 ulp
+  }
+  EXPECT_EQ(fast_one_minus_exp(0.0f), 0.0f);
+}
+
+TEST(PixelMath, mean_of_an_exponential_is_good_to_single_precision) {
+  for (double a = 1e-9; a <= 1; a *= 1.003) {
+    const auto value = static_cast<float>(a);
+    const double truth = -std::expm1(-static_cast<double>(value)) / static_cast<double>(value);
+    EXPECT_NEAR(fast_mean_exp(value), truth, 2.4e-7 * truth) << a;  // 2 ulp
+  }
+}
+
+TEST(PixelMath, exponential_is_good_to_double_precision) {
+  for (double a = 1e-9; a < 700; a *= 1.003) {
+    const double truth = std::exp(-a);
+    // The series stops at 7e-15; the reduction by a multiple of ln 2 is exact to 1e-16 a.
+    EXPECT_NEAR(fast_exp_minus(a), truth, (1e-14 + 1e-16 * a) * truth) << a;
+  }
+  EXPECT_EQ(fast_exp_minus(0), 1);
+  EXPECT_LT(fast_exp_minus(1e9), 1e-300);
+}
+
+TEST(PixelKernel, a_step_of_any_length_agrees_with_v2e_in_tiny_steps) {
+  // v2e's Euler update with 20,000 substeps; its own error is k dt / 20,000 < 3e-4 of
+  // the change, which is up to 5. The shortest steps take the kernel's polynomial.
+  for (const double dt_s : {1e-4, 3e-3, 0.03}) {
+    const Pixels start(1);
+    Pixels pixels = start;
+    advance_pixels(step_of(quiet(), dt_s), pixels.luminance_lux.data(), 50, pixels.block,
+                   pixels.step);
+    for (std::size_t i = 0; i < 50; ++i) {
+      const double i0 = start.block.intensity[i];
+      const double i1 = 255 * start.luminance_lux[i] / 5.0;
+      const double u0 = start.block.log_intensity[i];
+      const double u1 = test::ScalarPixel::log_intensity(i1, 20);
+      const double k = rate_per_intensity(quiet()) * ((i0 + i1) / 2 + 20);
+      double output = u0 + start.block.lag[i];
+      constexpr int kSubsteps = 20000;
+      for (int n = 0; n < kSubsteps; ++n) {
+        const double u = u0 + (u1 - u0) * (n + 0.5) / kSubsteps;
+        output += (u - output) * k * dt_s / kSubsteps;
+      }
+      EXPECT_NEAR(pixels.block.log_intensity[i] + pixels.block.lag[i], output, 1.5e-3);
+      const double change = output - (u0 + start.block.lag[i]);
+      EXPECT_NEAR(pixels.block.residual[i] - start.block.residual[i], change + 0.02 * dt_s, 1.5e-3);
+    }
+  }
+}
+
+TEST(PixelKernel, polynomial_and_exponential_agree_where_one_gives_way_to_the_other) {
+  // One pixel just above k dt = 1 brings the whole block over to the exponential.
+  const KernelStep step = step_of(quiet(), 1 / (rate_per_intensity(quiet()) * 275));
+  Pixels below(8);
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    below.luminance_lux[i] *= 0.99f;
+    below.block.intensity[i] *= 0.99f;
+  }
+  Pixels above = below;
+  above.luminance_lux[kCount - 1] = 6;
+  above.block.intensity[kCount - 1] = 300;
+  advance_pixels(step, below.luminance_lux.data(), kCount, below.block, below.step);
+  advance_pixels(step, above.luminance_lux.data(), kCount, above.block, above.step);
+  for (std::uint32_t i = 0; i + 1 < kCount; ++i)
+    EXPECT_NEAR(above.block.lag[i], below.block.lag[i], 1e-6);  // a few ulp of changes up to 5
+}
+
+TEST(PixelKernel, vector_code_and_its_scalar_remainder_give_the_same_bits) {
+  for (const double cutoff_hz : {0.0, 30.0}) {
+    PixelConfig config = quiet();
+    config.cutoff_hz = cutoff_hz;
+    const KernelStep step = step_of(config, 2e-3);
+    Pixels whole(2), part(2);
+    advance_pixels(step, whole.luminance_lux.data(), kCount, whole.block, whole.step);
+    for (std::uint32_t count = 1; count < 40; ++count) {
+      part = Pixels(2);
+      std::ranges::fill(part.step.crossed, std::uint8_t{1});  // as a step before left it
+      advance_pixels(step, part.luminance_lux.data(), count, part.block, part.step);
+      for (std::uint32_t i = 0; i < count; ++i) {
+        EXPECT_EQ(part.block.residual[i], whole.block.residual[i]);
+        EXPECT_EQ(part.block.lag[i], whole.block.lag[i]);
+        EXPECT_EQ(part.step.crossed[i], whole.step.crossed[i]);
+      }
+      EXPECT_EQ(part.block.residual[count], Pixels(2).block.residual[count]);
+      for (std::uint32_t i = count; i < kCount; ++i) EXPECT_EQ(part.step.crossed[i], 0);
+    }
+  }
+}
+
+TEST(PixelKernel, every_instruction_set_gives_the_same_bits) {
+  for (const double cutoff_hz : {0.0, 30.0, 3000.0}) {  // none, polynomial, exponential
+    PixelConfig config = quiet();
+    config.cutoff_hz = cutoff_hz;
+    const KernelStep step = step_of(config, 4e-3);
+    const Pixels start(9);
+    const auto run = [&](const KernelVariant& variant) {
+      Pixels pixels = start;
+      const auto advance = step.low_pass ? variant.with_low_pass : variant.without_low_pass;
+      EXPECT_TRUE(advance(step, pixels.luminance_lux.data(), kCount, pixels.block, pixels.step));
+      return pixels;
+    };
+    const auto variants = kernel_variants();
+    const Pixels plain = run(variants.front());
+    for (const KernelVariant& variant : variants)
+      expect_same_bits(run(variant), plain, variant.name);
+  }
+}
+
+TEST(PixelKernel, every_instruction_set_sees_what_has_to_be_corrected) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const KernelStep step = step_of(quiet(), 1e-3);
+  for (const KernelVariant& variant : kernel_variants())
+    for (const float bad : {std::numeric_limits<float>::quiet_NaN(), kInfinity, -kInfinity, -1.0f})
+      for (const std::uint32_t i : {0u, 17u, kCount - 1}) {
+        const Pixels start(3);
+        Pixels pixels = start;
+        pixels.luminance_lux[i] = bad;
+        EXPECT_FALSE(variant.with_low_pass(step, pixels.luminance_lux.data(), kCount, pixels.block,
+                                           pixels.step));
+        expect_same_bits(pixels, start, variant.name);
+      }
+}
+
+TEST(PixelKernel, unusable_radiance_is_corrected_and_counted) {
+  Pixels pixels(3);
+  const PixelBlock before = pixels.block;
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  pixels.luminance_lux = {std::numeric_limits<float>::quiet_NaN(), kInfinity, -kInfinity, -1.0f,
+                          2.0f};
+  const BadInputs bad = advance_pixels(step_of(quiet(), 1e-3), pixels.luminance_lux.data(), 5,
+                                       pixels.block, pixels.step);
+  EXPECT_EQ(bad.negative, 1u);
+  EXPECT_EQ(bad.not_finite, 3u);
+  for (const int last : {0, 1, 2}) EXPECT_EQ(pixels.block.intensity[last], before.intensity[last]);
+  EXPECT_EQ(pixels.block.intensity[3], 0.0f);
+  EXPECT_FLOAT_EQ(pixels.block.intensity[4], 102.0f);
+}
+
+TEST(PixelKernel, log_is_linear_below_the_knee_and_continuous_at_it) {
+  PixelBlock block = {};
+  const std::array<float, 3> luminance_lux{0.0f, 5 * 10.0f / 255, 5 * 20.0f / 255};
+  settle_pixels(step_of(quiet(), 0), luminance_lux.data(), 3, block);
+  // Six ulp: scale, product and logarithm.
+  EXPECT_NEAR(block.log_intensity[0], 0.0, 1e-9);
+  EXPECT_NEAR(block.log_intensity[1], std::log(20.0) / 2, 1e-6);
+  EXPECT_NEAR(block.log_intensity[2], std::log(20.0), 2e-6);
+
+  PixelConfig pure_log = quiet();
+  pure_log.log_linear_below = 0;
+  settle_pixels(step_of(pure_log, 0), luminance_lux.data(), 3, block);
+  EXPECT_NEAR(block.log_intensity[0], std::log(0.01), 2e-6);
+  EXPECT_NEAR(block.log_intensity[1], std::log(10.0), 2e-6);
+}
+
+}  // namespace
+}  // namespace nightjar::sim

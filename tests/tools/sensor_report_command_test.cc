@@ -1,0 +1,143 @@
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "tests/support/scratch_folder.h"
+
+namespace nightjar::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SensorReportCommandTest : public testing::Test {
+ protected:
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
+
+  // The exit code; what it said goes to `out` and `err`.
+  int run(const std::string& arguments, const std::string& environment = "") {
+    const std::string command = "cd '" + folder_.path().string() + "' && " + environment +
+                                " '" NIGHTJAR_PROGRAM "' sensor-report " + arguments +
+                                " >out.txt 2>err.txt </dev/null";
+    const int status = std::system(command.c_str());
+    out = test::file_text(folder_ / "out.txt");
+    err = test::file_text(folder_ / "err.txt");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+  // One line that holds `part`, no result, no file left behind.
+  void expect_refused(const std::string& arguments, const std::string& part) {
+    EXPECT_EQ(run(arguments), 2) << err;
+    expect_one_line(part);
+  }
+
+  void expect_one_line(const std::string& part) const {
+    EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+    EXPECT_TRUE(err.starts_with("nightjar: ")) << err;
+    EXPECT_NE(err.find(part), std::string::npos) << err;
+    EXPECT_EQ(out, "");
+    EXPECT_FALSE(fs::exists(folder_ / "report.png"));
+  }
+
+  test::ScratchFolder folder_;
+  const std::string kShort = " --duration 0.2 --size 32x24 ";
+  std::string out;
+  std::string err;
+};
+
+TEST_F(SensorReportCommandTest, prints_a_table_with_a_column_for_the_recording) {
+  write("events.txt", "0.5 1 1 1\n0.6 2 2 0\n");
+  ASSERT_EQ(run(kShort + "--preset dim --recording events.txt"), 0) << err;
+  EXPECT_EQ(err, "");
+  for (const std::string part : {"preset dim, 5 lux, seed 1", "at rest", "moving", "events.txt",
+                                 "32x24 px", "quiet pixels", "hot pixels", "ON share", "99 %"})
+    EXPECT_NE(out.find(part), std::string::npos) << part;
+}
+
+TEST_F(SensorReportCommandTest, prints_json_for_scripts) {
+  ASSERT_EQ(run(kShort + "--preset clean --illuminance 1000 --seed 4 --json"), 0) << err;
+  const auto json = nlohmann::json::parse(out);
+  EXPECT_EQ(json["preset"], "clean");
+  EXPECT_EQ(json["illuminance_lux"], 1000);
+  EXPECT_EQ(json["seed"], 4);
+  EXPECT_EQ(json["columns"].size(), 2u);
+}
+
+TEST_F(SensorReportCommandTest, a_recording_without_a_size_keeps_its_own) {
+  write("events.txt", "0.5 9 1 1\n0.6 2 4 0\n");
+  ASSERT_EQ(run("--duration 0.2 --preset clean --json --recording events.txt"), 0) << err;
+  const auto json = nlohmann::json::parse(out);
+  EXPECT_EQ(json["columns"][0]["width_px"], 346);
+  EXPECT_EQ(json["columns"][2]["width_px"], 10);
+  EXPECT_EQ(json["columns"][2]["height_px"], 5);
+}
+
+TEST_F(SensorReportCommandTest, takes_the_sensor_of_a_scenario) {
+  const std::string scenario =
+      "--scenario '" NIGHTJAR_SOURCE_DIR "/scenarios/tracking_landing.yaml' --duration 0.2 ";
+  ASSERT_EQ(run(scenario + "--json"), 0) << err;
+  const auto json = nlohmann::json::parse(out);
+  EXPECT_EQ(json["illuminance_lux"], 5);
+  EXPECT_EQ(json["columns"][0]["width_px"], 346);
+  ASSERT_EQ(run(scenario + "--illuminance 20 --size 40x30 --json"), 0) << err;
+  EXPECT_EQ(nlohmann::json::parse(out)["illuminance_lux"], 20);
+  EXPECT_EQ(nlohmann::json::parse(out)["columns"][0]["width_px"], 40);
+  expect_refused(scenario + "--preset dim", "--preset");
+}
+
+TEST_F(SensorReportCommandTest, draws_a_png) {
+  ASSERT_EQ(run(kShort + "--out report.png"), 0) << err;
+  EXPECT_EQ(test::file_text(folder_ / "report.png").substr(1, 3), "PNG");
+}
+
+TEST_F(SensorReportCommandTest, an_output_that_cannot_be_is_refused_before_the_work) {
+  expect_refused(kShort + "--out none/report.png", "none/report.png");
+  expect_refused(kShort + "--out report.jpg", "report.jpg");
+  EXPECT_FALSE(fs::exists(folder_ / "report.jpg"));
+}
+
+TEST_F(SensorReportCommandTest, a_missing_gnuplot_is_named) {
+  EXPECT_EQ(run(kShort + "--out report.png", "PATH=/none"), 3);
+  expect_one_line("gnuplot");
+}
+
+TEST_F(SensorReportCommandTest, bad_recordings_are_refused) {
+  write("empty.txt", "# nothing\n");
+  write("outside.txt", "0.5 1 1 1\n0.6 32 2 0\n");
+  write("backwards.txt", "0.5 1 1 1\n0.4 2 2 0\n");
+  write("once.txt", "0.5 1 1 1\n");
+  write("words.txt", "now here there\n");
+  expect_refused(kShort + "--recording none.txt", "none.txt: ");
+  expect_refused(kShort + "--recording .", "cannot be read");
+  expect_refused(kShort + "--recording empty.txt", "empty.txt: 0 events");
+  expect_refused(kShort + "--recording outside.txt", "outside.txt:2: x = 32, allowed 0 to 31");
+  expect_refused(kShort + "--recording backwards.txt", "backwards.txt:2: ");
+  expect_refused(kShort + "--recording once.txt", "once.txt: 1 events");
+  expect_refused(kShort + "--recording words.txt", "words.txt:1: ");
+}
+
+TEST_F(SensorReportCommandTest, a_wrong_command_line_is_refused) {
+  for (const std::string size :
+       {"346", "x260", "346x", "346x260x1", "0x10", "-3x4", "99999x9", "''x"})
+    expect_refused("--size " + size, "--size");
+  expect_refused("--size 8x8", "size.width_px = 8, allowed 16 to 2048");
+  expect_refused("--preset custom", "--preset");
+  expect_refused("--preset bleak", "bleak");
+  expect_refused("--illuminance 0", "illuminance_lux = 0");
+  expect_refused("--illuminance nan", "illuminance");
+  expect_refused("--duration -1", "duration_s = -1");
+  expect_refused("--duration 1e9", "duration_s");
+  expect_refused("--speed 0", "speed_px_s = 0");
+  expect_refused("--seed -1", "--seed");
+  expect_refused("--scenario none.yaml", "none.yaml");
+}
+
+}  // namespace
+}  // namespace nightjar::tools
