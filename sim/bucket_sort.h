@@ -16,8 +16,9 @@ class BucketSort {
  public:
   template <class Key, class Less>
   void sort(std::vector<Item>& items, std::uint64_t most, Key key, Less less) {
+    if (items.size() < 2) return;
     const auto bits = [](std::uint64_t n) { return static_cast<int>(std::bit_width(n)); };
-    const int shift = std::max(0, bits(most) - bits(items.size()) - 1);
+    const int shift = std::max(0, bits(most) - bits(items.size()));
     ends_.assign((most >> shift) + 2, 0);
     for (const Item& item : items) ++ends_[(key(item) >> shift) + 1];
     for (std::size_t b = 1; b < ends_.size(); ++b) ends_[b] += ends_[b - 1];

@@ -90,18 +90,6 @@ std::uint64_t improve_plain(Crossings& c, double tolerance) { return improve_bod
 
 }  // namespace
 
-void Crossings::add(const ResidualCourse& course, double passed, double from_s, double to_s) {
-  const double sign = std::copysign(1.0, passed);
-  level[count] = passed;
-  offset[count] = sign * (course.offset - passed);
-  slope[count] = sign * course.slope;
-  bend[count] = sign * course.bend;
-  rate[count] = course.rate;
-  from[count] = from_s;
-  to[count] = to_s;
-  ++count;
-}
-
 std::vector<CourseVariant> course_variants() {
   std::vector<CourseVariant> variants{{"plain", set_up_plain, start_plain, improve_plain}};
 #if defined(__x86_64__)

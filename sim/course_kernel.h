@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -35,7 +36,17 @@ struct alignas(64) Crossings {
   /// Appends the first passage of the level `passed` in [from_s, to_s] by a residual that
   /// has reached it at `to_s`. There is just one, since the residual has at most one
   /// extremum.
-  void add(const ResidualCourse& course, double passed, double from_s, double to_s);
+  void add(const ResidualCourse& course, double passed, double from_s, double to_s) {
+    const double sign = std::copysign(1.0, passed);
+    level[count] = passed;
+    offset[count] = sign * (course.offset - passed);
+    slope[count] = sign * course.slope;
+    bend[count] = sign * course.bend;
+    rate[count] = course.rate;
+    from[count] = from_s;
+    to[count] = to_s;
+    ++count;
+  }
 };
 
 /// Finds every `s` to `tolerance`; a level passed before `from` gives `from`. Each result

@@ -11,7 +11,7 @@ struct EmulatorCounts {
   std::uint64_t hot = 0;     ///< Hot pixels.
   // Inputs corrected.
   std::uint64_t negative_radiance = 0;
-  std::uint64_t not_finite_radiance = 0;  ///< NaN, infinite or beyond 1e30.
+  std::uint64_t not_finite_radiance = 0;  ///< NaN, infinite or beyond 1e20.
 };
 
 }  // namespace nightjar::sim

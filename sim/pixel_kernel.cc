@@ -15,8 +15,8 @@ namespace {
 constexpr float kDarkOffset = 20.0f;
 // Without a linear part the logarithm needs a floor: 1/25,500 of white.
 constexpr float kLeastIntensity = 0.01f;
-// Beyond any light, and far from overflow.
-constexpr float kMostLuminance = 1e30f;
+// Beyond any light, and k dt does not overflow over an hour at the greatest cutoff.
+constexpr float kMostLuminance = 1e20f;
 
 /// The intensity of one pixel: NaN and infinity give way to `last`, negative
 /// values to 0.
@@ -86,9 +86,14 @@ template <LowPass kLowPass>
     if constexpr (kLowPass != LowPass::none) {
       const float lag = block.lag[i];
       const float kdt = decay * (result.intensity[i] + block.intensity[i] + 2.0f * kDarkOffset);
-      const float a = kLowPass == LowPass::slow ? kdt : select(kdt < 80.0f, kdt, 80.0f);
-      const float mean = kLowPass == LowPass::slow ? fast_mean_exp(a) : fast_one_minus_exp(a) / a;
-      const float lost = (lag * a + change) * mean;
+      float mean;  // of exp(-k t) over the step
+      if constexpr (kLowPass == LowPass::slow) {
+        mean = fast_mean_exp(kdt);
+      } else {
+        // Where k dt is great, nothing is left of the exponential.
+        mean = fast_one_minus_exp(select(kdt < 80.0f, kdt, 80.0f)) / kdt;
+      }
+      const float lost = (lag * kdt + change) * mean;
       result.lag[i] = lag;
       block.lag[i] = lag - lost;
       change -= lost;

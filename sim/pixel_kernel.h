@@ -47,7 +47,7 @@ struct alignas(64) BlockStep {
 /// Inputs that had to be corrected.
 struct BadInputs {
   std::uint32_t negative = 0;    ///< Counted as 0.
-  std::uint32_t not_finite = 0;  ///< Beyond +-1e30 or NaN: the pixel's last value holds.
+  std::uint32_t not_finite = 0;  ///< Beyond +-1e20 or NaN: the pixel's last value holds.
 };
 
 /// Constants for pixels of this config; dt_s and decay are set by `set_step`.

@@ -73,4 +73,17 @@ class PixelWalks {
   Crossings crossings_;      ///< Those of `open_`.
 };
 
+inline void PixelWalks::add(std::uint32_t first_pixel, std::uint32_t i, PixelBlock& block,
+                            const BlockStep& before, std::span<const NoiseCandidate> noise) {
+  const std::uint32_t k = starts_.count++;
+  starts_.change[k] = before.change[i];
+  starts_.leak_per_s[k] = block.leak_per_s[i];
+  starts_.lag[k] = before.lag[i];
+  starts_.residual[k] = before.residual[i];
+  starts_.mean_intensity[k] = 0.5f * before.intensity[i] + 0.5f * block.intensity[i];
+  walks_.push_back(
+      {{}, noise, block.threshold_on[i], block.threshold_off[i], &block, i, first_pixel + i});
+  leak_.prefetch(first_pixel + i);
+}
+
 }  // namespace nightjar::sim

@@ -19,11 +19,12 @@ build/release/bin/benchmarks --benchmark_filter="$filter" --benchmark_repetition
   --benchmark_enable_random_interleaving=true --benchmark_report_aggregates_only=true \
   --benchmark_out="$raw" --benchmark_out_format=json >/dev/null
 
-# NAME_reference is the reference of every benchmark whose name begins with NAME.
+# NAME_reference is the reference of every benchmark whose name begins with NAME, and
+# NAME_reference/ARGUMENT of NAME/ARGUMENT.
 jq '[.benchmarks[] | select(.aggregate_name == "median")
-     | {name: (.run_name | sub("/real_time$"; "")), time: .real_time, unit: .time_unit}] as $all
-    | [$all[] | select(.name | endswith("_reference"))
-       | {key: (.name | rtrimstr("_reference")), time}] as $references
+     | {name: (.run_name | sub("/(real|manual)_time$"; "")), time: .real_time, unit: .time_unit}] as $all
+    | [$all[] | select(.name | contains("_reference"))
+       | {key: (.name | sub("_reference"; "")), time}] as $references
     | {context: (.context | {date, num_cpus, mhz_per_cpu, load_avg}),
        benchmarks: [$all[] | . as $b
          | ([$references[] | select(.key as $k | $b.name | startswith($k))][0]) as $r

@@ -46,6 +46,28 @@ TEST(FiredEvents, are_handed_over_by_time_then_row_then_column) {
   EXPECT_EQ(events, expected);  // they are handed over once
 }
 
+TEST(FiredEvents, find_row_and_column_of_every_pixel) {
+  for (const std::uint32_t width : {1u, 3u, 49u, 346u, 1023u, 32767u}) {
+    FiredEvents fired;
+    constexpr std::uint32_t kRows = 300;
+    for (std::uint32_t y = 0; y < kRows; ++y) {
+      fired.add(1, y * width, true);
+      if (width > 1) fired.add(1, y * width + width - 1, true);
+    }
+    std::vector<core::Event> events;
+    fired.hand_over(core::Time(0), core::Time(1), static_cast<int>(width), events);
+    ASSERT_EQ(events.size(), kRows * (width > 1 ? 2 : 1));
+    std::size_t k = 0;
+    for (std::uint32_t y = 0; y < kRows; ++y)
+      for (const std::uint32_t x : {0u, width - 1}) {
+        EXPECT_EQ(events[k], (core::Event{core::Time(1), static_cast<std::uint16_t>(x),
+                                          static_cast<std::uint16_t>(y), true}));
+        ++k;
+        if (width == 1) break;
+      }
+  }
+}
+
 TEST(FiredEvents, steps_of_an_hour_do_not_overflow) {
   FiredEvents fired;
   constexpr std::uint32_t kHourUs = 3'600'000'000;

@@ -147,7 +147,7 @@ std::vector<std::vector<ScalarEvent>> reference(const PixelConfig& config, core:
 }
 
 void expect_like_reference(const PixelConfig& config, const Scene& scene) {
-  const core::Resolution size{20, 5};
+  const core::Resolution size{60, 5};  // more than one block of pixels
   EventEmulator emulator(config, size, kWhiteLux, 2);
   const Time end(300'000), dt(3'000);
   const auto truth = reference(config, size, scene, end, dt, emulator);

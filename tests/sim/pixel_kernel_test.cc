@@ -119,6 +119,38 @@ TEST(PixelKernel, a_step_of_any_length_agrees_with_v2e_in_tiny_steps) {
   }
 }
 
+TEST(PixelKernel, photoreceptor_has_its_closed_form_at_every_k_dt) {
+  for (const double dt_s : {1e-5, 2e-3, 5e-3, 7e-3, 0.01, 0.015, 0.1, 3.0}) {
+    const Pixels start(7);
+    Pixels pixels = start;
+    advance_pixels(step_of(quiet(), dt_s), pixels.luminance_lux.data(), kCount, pixels.block,
+                   pixels.step);
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+      const double both = static_cast<double>(start.block.intensity[i]) + pixels.block.intensity[i];
+      const double kdt = rate_per_intensity(quiet()) * (both / 2 + 20) * dt_s;
+      const double truth =
+          start.block.lag[i] * std::exp(-kdt) + pixels.step.change[i] * std::expm1(-kdt) / kdt;
+      EXPECT_NEAR(pixels.block.lag[i], truth, 2e-6) << kdt;  // a few ulp of changes up to 5
+    }
+  }
+}
+
+TEST(PixelKernel, the_most_light_there_can_be_stays_finite) {
+  PixelConfig config = quiet();
+  config.cutoff_hz = 1e5;
+  KernelStep step = kernel_step(config, 1e-6);
+  set_step(step, config, 3600);
+  Pixels pixels(6);
+  pixels.luminance_lux.fill(1e20f);
+  for (int i = 0; i < 3; ++i)
+    advance_pixels(step, pixels.luminance_lux.data(), kCount, pixels.block, pixels.step);
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    EXPECT_NEAR(pixels.block.log_intensity[i], std::log(2.55e28), 1e-5);
+    EXPECT_NEAR(pixels.block.lag[i], 0, 1e-6);
+    EXPECT_TRUE(std::isfinite(pixels.block.residual[i]));
+  }
+}
+
 TEST(PixelKernel, polynomial_and_exponential_agree_where_one_gives_way_to_the_other) {
   // One pixel just above k dt = 1 brings the whole block over to the exponential.
   const KernelStep step = step_of(quiet(), 1 / (rate_per_intensity(quiet()) * 275));
