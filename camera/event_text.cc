@@ -4,21 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
 #include <cstdlib>
+#include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
-#include <utility>
 
+#include "camera/side_limit.h"
 #include "core/config_check.h"
 
 namespace nightjar::camera {
 namespace {
 
-constexpr int kMostSidePx = 32767;  // so that the number of pixels fits an int
 constexpr std::int64_t kMostSeconds = 999'999'999'999;
 constexpr core::Time kMostTime = std::chrono::seconds(kMostSeconds);
 constexpr std::string_view kSpaces = " \t";
@@ -151,11 +150,6 @@ core::Resolution smallest_size(std::span<const core::Event> events) {
   return size;
 }
 
-std::filesystem::path part_of(const std::filesystem::path& path) {
-  std::filesystem::path part = path;
-  return part.replace_extension(".part" + path.extension().string());
-}
-
 }  // namespace
 
 EventRecording read_event_text(const std::filesystem::path& path,
@@ -190,23 +184,6 @@ EventRecording read_event_text(std::istream& in, const std::string& name,
   return recording;
 }
 
-EventTextWriter::EventTextWriter(std::filesystem::path path)
-    : path_(std::move(path)), part_(part_of(path_)) {
-  std::error_code ignored;
-  if (std::filesystem::exists(path_, ignored) && !std::filesystem::is_regular_file(path_, ignored))
-    throw std::invalid_argument(fmt::format("{}: is not a plain file", path_.string()));
-  out_.open(part_, std::ios::binary);
-  if (!out_)
-    throw std::invalid_argument(fmt::format("{}: cannot be written, {}", path_.string(),
-                                            std::generic_category().message(errno)));
-}
-
-EventTextWriter::~EventTextWriter() {
-  out_.close();
-  std::error_code ignored;
-  std::filesystem::remove(part_, ignored);
-}
-
 void EventTextWriter::write(std::span<const core::Event> events) {
   fmt::memory_buffer buffer;
   for (const core::Event& event : events) {
@@ -218,16 +195,8 @@ void EventTextWriter::write(std::span<const core::Event> events) {
                    event.t.count() / 1'000'000, event.t.count() % 1'000'000, event.x, event.y,
                    event.on ? 1 : 0);
   }
-  out_.write(buffer.data(), static_cast<std::streamsize>(buffer.size()));
-  if (!out_) throw std::runtime_error(fmt::format("{}: cannot be written", path_.string()));
-}
-
-void EventTextWriter::finish() {
-  out_.close();
-  std::error_code error;
-  if (out_) std::filesystem::rename(part_, path_, error);
-  if (!out_ || error)
-    throw std::runtime_error(fmt::format("{}: cannot be written", path_.string()));
+  file_.stream().write(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+  file_.check();
 }
 
 }  // namespace nightjar::camera

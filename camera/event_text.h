@@ -2,13 +2,14 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <iosfwd>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "camera/part_file.h"
 #include "core/event.h"
 
 namespace nightjar::camera {
@@ -40,17 +41,12 @@ EventRecording read_event_text(std::istream& in, const std::string& name,
                                std::optional<core::Resolution> size = std::nullopt);
 
 /// Writes the same format, as plain as the RPG files: no comments, six decimals,
-/// polarity 1 or 0. The file is called NAME.part.EXT until finish().
+/// polarity 1 or 0. The file has its name only after finish(): see PartFile.
 class EventTextWriter {
  public:
   /// Throws std::invalid_argument when the folder does not exist or cannot be
   /// written, or when `path` is there and not a plain file.
-  explicit EventTextWriter(std::filesystem::path path);
-
-  /// Removes what was not finished.
-  ~EventTextWriter();
-  EventTextWriter(const EventTextWriter&) = delete;
-  EventTextWriter& operator=(const EventTextWriter&) = delete;
+  explicit EventTextWriter(std::filesystem::path path) : file_(std::move(path)) {}
 
   /// Throws std::invalid_argument for an event that could not be read back: earlier
   /// than the one before, before time 0, or at 32767 and beyond. Throws
@@ -59,12 +55,10 @@ class EventTextWriter {
 
   /// Gives the file its name. Nothing may be written afterwards. Throws
   /// std::runtime_error when the disk does not take it.
-  void finish();
+  void finish() { file_.finish(); }
 
  private:
-  std::filesystem::path path_;
-  std::filesystem::path part_;
-  std::ofstream out_;
+  PartFile file_;
   core::Time last_{};
 };
 

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "camera/picture_folder.h"
+#include "camera/side_limit.h"
 #include "camera/video_file.h"
 #include "core/config_check.h"
 
@@ -14,7 +15,6 @@ namespace {
 
 constexpr double kLeastRateHz = 1e-3;  // a step of the emulator is at most an hour
 constexpr double kMostRateHz = 1e6;    // a microsecond from frame to frame
-constexpr int kMostSidePx = 32767;
 
 void check(const FrameOptions& options) {
   if (options.rate_hz) core::check_range("fps", *options.rate_hz, kLeastRateHz, kMostRateHz);

@@ -14,6 +14,9 @@ namespace {
 // Rec. ITU-R BT.709, in OpenCV's order.
 constexpr float kBlue = 0.0722f, kGreen = 0.7152f, kRed = 0.2126f;
 
+// More than any light, and all that an emulated pixel takes.
+constexpr float kMostIntensity = 1e20f;
+
 double white_of(const cv::Mat& picture, double float_white, const std::string& name) {
   switch (picture.depth()) {
     case CV_8U: return 255;
@@ -57,9 +60,10 @@ void PictureConverter::check_size(const cv::Mat& picture, const std::string& nam
 
 void PictureConverter::correct(cv::Mat& luminance) {
   for (float& value : cv::Mat_<float>(luminance)) {
-    if (value >= 0 && std::isfinite(value)) continue;
-    value = std::isfinite(value) ? 0 : std::numeric_limits<float>::quiet_NaN();
-    ++bad_values_;
+    if (value > 0 && value <= kMostIntensity) continue;
+    if (value != 0) ++bad_values_;
+    // Also of -0, which would not be the same bits as 0.
+    value = std::abs(value) <= kMostIntensity ? 0 : std::numeric_limits<float>::quiet_NaN();
   }
 }
 

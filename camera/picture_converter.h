@@ -21,7 +21,8 @@ class PictureConverter {
       : float_white_(float_white), size_(size) {}
 
   /// `picture`: 8-bit, 16-bit, float or double; gray, BGR or BGRA. Negative intensity
-  /// becomes 0, NaN and infinity become NaN, and both are counted before resizing.
+  /// becomes 0; NaN, infinity and what is beyond +-1e20 (more than any light) become NaN;
+  /// both are counted before resizing.
   /// Throws std::invalid_argument, which begins with `name`, for any other kind and for
   /// another size than the first picture's.
   void convert(const cv::Mat& picture, const std::string& name, core::Image<float>& intensity);

@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <opencv2/imgcodecs.hpp>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include "camera/natural_order.h"
 
@@ -28,11 +28,16 @@ std::string lower_extension(const std::filesystem::path& path) {
 
 std::vector<std::filesystem::path> pictures_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> pictures;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    const bool hidden = entry.path().filename().string().starts_with('.');
-    if (!hidden && entry.is_regular_file() && is_picture(entry.path()))
-      pictures.push_back(entry.path());
+  std::error_code error, ignored;
+  std::filesystem::directory_iterator entry(folder, error);
+  for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
+    const std::filesystem::path& path = entry->path();
+    const bool hidden = path.filename().string().starts_with('.');
+    if (!hidden && entry->is_regular_file(ignored) && is_picture(path)) pictures.push_back(path);
   }
+  if (error)
+    throw std::invalid_argument(
+        fmt::format("{}: cannot be read, {}", folder.string(), error.message()));
   std::sort(pictures.begin(), pictures.end(), [](const auto& a, const auto& b) {
     return natural_less(a.filename().string(), b.filename().string());
   });
@@ -78,8 +83,6 @@ PictureFolder::PictureFolder(const std::filesystem::path& folder, const FrameOpt
     throw std::invalid_argument(
         fmt::format("{}: pictures have no frame rate, fps is needed", folder.string()));
   rate_hz_ = *options.rate_hz;
-  // Off in OpenCV as released (on in Debian's); it looks once, when it meets its first EXR.
-  setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 0);
 }
 
 bool PictureFolder::next(core::Image<float>& intensity) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <opencv2/core.hpp>
 #include <opencv2/videoio.hpp>
 #include <stdexcept>
@@ -21,7 +20,6 @@ VideoFile::VideoFile(const std::filesystem::path& path, const FrameOptions& opti
       converter_(options.float_white, options.size) {
   // FFmpeg alone: other backends would take a name with % for a folder of pictures.
   cv::VideoCapture& video = decoder_->video;
-  setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // our own error says what is wrong
   if (!video.open(name_, cv::CAP_FFMPEG))
     throw std::invalid_argument(fmt::format("{}: cannot be read as a video", name_));
   rate_hz_ = options.rate_hz.value_or(video.get(cv::CAP_PROP_FPS));

@@ -36,7 +36,18 @@ class EventSensor {
     return events_;
   }
 
-  std::uint64_t lost() const { return readout_.counts().lost; }
+  /// What still waits in the readout at `t`, the time of the last frame.
+  std::span<const core::Event> read_rest(core::Time t) {
+    events_.clear();
+    while (readout_.waiting() > 0) {
+      t += std::chrono::seconds(1);
+      readout_.step(t, {}, events_);
+    }
+    filter_.filter(events_);
+    return events_;
+  }
+
+  const sim::ReadoutCounts& readout_counts() const { return readout_.counts(); }
 
  private:
   sim::EventEmulator pixels_;
@@ -81,7 +92,11 @@ Emulation emulate(camera::FrameSource& frames, const EmulateOptions& options,
     if (options.on_progress) options.on_progress(result.duration_s, end_s);
   } while (frames.next(intensity));
   if (result.frames < 2) throw_too_few(result.frames);
-  result.events_lost = sensor.lost();
+  const auto rest = sensor.read_rest(core::from_seconds(result.duration_s));
+  count(rest, result);
+  take(rest);
+  result.events_lost = sensor.readout_counts().lost;
+  result.max_delay = sensor.readout_counts().max_delay;
   result.bad_values = frames.bad_values();
   result.event_rate_hz =
       static_cast<double>(result.events_on + result.events_off) / result.duration_s;
@@ -100,6 +115,7 @@ std::string to_json(const Emulation& e) {
       {"events_on", e.events_on},
       {"events_off", e.events_off},
       {"events_lost", e.events_lost},
+      {"max_delay_us", e.max_delay.count()},
       {"event_rate_hz", e.event_rate_hz},
       {"bad_values", e.bad_values},
   };
@@ -114,15 +130,15 @@ std::string to_table(const Emulation& e) {
                                      e.events_on, e.events_off, e.event_rate_hz / 1000));
   const auto all = static_cast<double>(e.events_on + e.events_off + e.events_lost);
   const double lost_percent = all > 0 ? 100 * static_cast<double>(e.events_lost) / all : 0;
-  return table +
-         row("lost", fmt::format("{} in the readout ({:.1f} %)", e.events_lost, lost_percent));
+  table += row("lost", fmt::format("{} in the readout ({:.1f} %)", e.events_lost, lost_percent));
+  return table + row("delay", fmt::format("{} us at most, in the readout", e.max_delay.count()));
 }
 
 std::string warning(const Emulation& e) {
   std::string text;
   if (e.bad_values > 0)
     text = fmt::format(
-        "{} pixels of the frames were negative (taken as 0), NaN or infinite "
+        "{} pixels of the frames were negative (taken as 0), NaN, infinite or beyond 1e20 "
         "(taken as the pixel's last value)",
         e.bad_values);
   // A video's index may be off by a frame or two.

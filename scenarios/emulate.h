@@ -30,15 +30,16 @@ struct Emulation {
   std::uint64_t events_on = 0;
   std::uint64_t events_off = 0;
   std::uint64_t events_lost = 0;  ///< In the readout, its queue being full.
-  std::uint64_t bad_values = 0;   ///< Of the frames: negative, NaN or infinite.
-  double event_rate_hz = 0;
+  core::Time max_delay{};         ///< The longest wait of an event for its readout.
+  std::uint64_t bad_values = 0;   ///< See FrameSource.
+  double event_rate_hz = 0;       ///< All events over `duration_s`.
 };
 
 /// Shows `frames` to the emulated sensor, the first at t = 0, where the pixels settle;
 /// between two frames each pixel's log intensity is linear in time. White (1) is 255 on
 /// the emulator's scale, whatever the illuminance. After every frame `take` gets the
-/// events read out since the one before, ordered by time; what waits in the readout
-/// after the last frame (about 1 ms at most by default) is not waited for.
+/// events read out since the one before, ordered by time; in the end what still waits in
+/// the readout then, with times after the last frame (by about 1 ms at most by default).
 ///
 /// The same frames, options and build give the same events. Throws
 /// std::invalid_argument for what the frame source and the sensor refuse and for fewer

@@ -53,6 +53,7 @@ class Run {
   void take(const PictureRecord& record);
   void handle();
   void film();
+  void add_sensor_counts(Summary& summary) const;
   std::vector<core::StageTime> stage_times() const;
   bool over() const;
 
@@ -161,14 +162,26 @@ void Run::fly() {
   handle();
 }
 
+void Run::add_sensor_counts(Summary& summary) const {
+  const sim::SimulatedCamera& camera = simulation_.camera();
+  summary.events_lost = static_cast<std::int64_t>(camera.readout_counts().lost);
+  summary.max_readout_delay_us = camera.readout_counts().max_delay.count();
+  const sim::EmulatorCounts& pixels = camera.pixel_counts();
+  summary.bad_radiance =
+      static_cast<std::int64_t>(pixels.negative_radiance + pixels.not_finite_radiance);
+  summary.renders = static_cast<std::int64_t>(simulation_.renders());
+  summary.renders_late = static_cast<std::int64_t>(simulation_.drawn_late());
+  if (summary.events_lost > 0) spdlog::warn("the readout lost {} events", summary.events_lost);
+  if (summary.bad_radiance > 0)
+    spdlog::warn("{} pixel values were negative or not finite", summary.bad_radiance);
+}
+
 Summary Run::finish(double wall_time_s) {
   if (video_) video_->finish();
   csv_.finish();
   log_.finish();
-  const auto lost = simulation_.camera().readout_counts().lost;
-  if (lost > 0) spdlog::warn("the readout lost {} events", lost);
-  scorer_.add_lost_events(static_cast<std::int64_t>(lost));
   Summary summary = scorer_.summary(simulation_.world().now(), wall_time_s);
+  add_sensor_counts(summary);
   summary.profile = stage_times();
   folder_.write(kSummaryFile, to_json(summary));
   return summary;

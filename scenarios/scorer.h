@@ -36,7 +36,6 @@ class Scorer {
   void add(const core::MissionTransition& transition);
 
   void add_events(std::int64_t count) { summary_.events += count; }
-  void add_lost_events(std::int64_t count) { summary_.events_lost += count; }
 
   /// The score of a run that ended at `end`. It has landed when the mission has
   /// touched down, the UAV stands on the board in the last picture and has

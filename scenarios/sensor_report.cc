@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -41,9 +42,10 @@ class Exposure {
   }
 
   ReportColumn column(const std::string& name, core::Resolution size) const {
-    ReportColumn column{name, pixel_activity(events_, size, core::Time(0), end_), {}, {}};
+    ReportColumn column{name, pixel_activity(events_, size, core::Time(0), end_), {}};
     column.statistics = event_statistics(column.activity);
     column.lost_events = camera_.readout_counts().lost;
+    column.max_delay = camera_.readout_counts().max_delay;
     return column;
   }
 
@@ -74,11 +76,11 @@ ReportColumn moving(const SensorReportConfig& config, const ReportProgress& prog
   Exposure exposure(config);
   MovingPattern pattern(config.size, config.illuminance_lux, config.speed_px_s,
                         config.duration_s * kMovingShare, config.seed);
+  const double end_s = config.duration_s * (1 + kMovingShare);
   for (int i = 0; i < pattern.pictures(); ++i) {
     const core::Time t = i * pattern.interval();
     exposure.show(t, pattern.draw(i));
-    progress(config.duration_s + core::seconds(t), config.duration_s * (1 + kMovingShare),
-             "moving");
+    progress(std::min(config.duration_s + core::seconds(t), end_s), end_s, "moving");
   }
   return exposure.column("moving", config.size);
 }
@@ -99,7 +101,7 @@ ReportColumn report_on_recording(const std::string& name, const camera::EventRec
     throw std::invalid_argument(fmt::format(
         "{}: {} events, expected two at least, at different times", name, events.size()));
   ReportColumn column{
-      name, pixel_activity(events, recording.size, events.front().t, events.back().t), {}, {}};
+      name, pixel_activity(events, recording.size, events.front().t, events.back().t), {}};
   column.statistics = event_statistics(column.activity);
   return column;
 }

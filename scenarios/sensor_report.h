@@ -20,7 +20,9 @@ struct SensorReportConfig {
   double illuminance_lux = 5.0;
   core::Resolution size{346, 260};
   std::uint64_t seed = 1;
-  double duration_s = 10.0;   ///< Of the scene at rest; the moving one lasts a fifth. To 60.
+  /// Of the scene at rest, 0.1 to 60. The moving one lasts a fifth of it, or as long as
+  /// its first two pictures take.
+  double duration_s = 10.0;
   double speed_px_s = 100.0;  ///< Of the moving texture; 10 to 2000.
 };
 
@@ -29,7 +31,8 @@ struct ReportColumn {
   std::string name;
   PixelActivity activity;
   EventStatistics statistics;
-  std::optional<std::uint64_t> lost_events;  ///< In the readout; unknown for a recording.
+  std::optional<std::uint64_t> lost_events = {};  ///< In the readout; unknown for a recording.
+  std::optional<core::Time> max_delay = {};       ///< An event's longest wait there; likewise.
 };
 
 struct SensorReport {

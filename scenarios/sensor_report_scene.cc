@@ -76,7 +76,7 @@ core::Image<float> grey_bars(core::Resolution size, double white_lux) {
 MovingPattern::MovingPattern(core::Resolution size, double white_lux, double speed_px_s,
                              double duration_s, std::uint64_t seed) {
   interval_ = core::from_seconds(1.0 / (kColumnsPerPixel * speed_px_s));
-  pictures_ = static_cast<int>(duration_s / core::seconds(interval_)) + 1;
+  pictures_ = std::max(2, static_cast<int>(duration_s / core::seconds(interval_)) + 1);
   const core::Resolution strip{kColumnsPerPixel * size.width_px + pictures_,
                                std::max(1, size.height_px / 2)};
   strip_lux_ = texture_lux(strip, white_lux, seed);

@@ -21,7 +21,7 @@ core::Image<float> grey_bars(core::Resolution size, double white_lux);
 /// mean ln 0.25 and the standard deviation 0.4.
 class MovingPattern {
  public:
-  /// The pictures from time 0 to `duration_s`.
+  /// The pictures from time 0 to `duration_s`, and two at least.
   MovingPattern(core::Resolution size, double white_lux, double speed_px_s, double duration_s,
                 std::uint64_t seed);
 

@@ -22,6 +22,10 @@ std::string milliseconds(const std::optional<std::int64_t>& us) {
   return us ? fmt::format("{:.3f} ms", static_cast<double>(*us) / 1000) : "-";
 }
 
+std::string delay(const std::optional<core::Time>& time) {
+  return time ? milliseconds(time->count()) : "-";
+}
+
 std::string rate(const QuietPixels& quiet) {
   if (!quiet.rate_hz) return "-";
   return fmt::format("{:.4f} ± {:.4f} Hz", *quiet.rate_hz, *quiet.rate_error_hz);
@@ -52,6 +56,7 @@ const Row kRows[] = {
      [](const ReportColumn& c) { return fmt::format("{:.3f} s", c.statistics.duration_s); }},
     {"events", [](const ReportColumn& c) { return fmt::format("{}", c.statistics.all.events); }},
     {"  lost in the readout", [](const ReportColumn& c) { return text(c.lost_events, "{}"); }},
+    {"  greatest delay there", [](const ReportColumn& c) { return delay(c.max_delay); }},
     {"  ON share", [](const ReportColumn& c) { return text(c.statistics.all.on_share, "{:.3f}"); }},
     {"  OFF per ON",
      [](const ReportColumn& c) { return text(c.statistics.all.off_per_on, "{:.2f}"); }},
@@ -152,6 +157,7 @@ Json json(const ReportColumn& column) {
           {"height_px", s.size.height_px},
           {"duration_s", s.duration_s},
           {"lost_events", json(column.lost_events)},
+          {"max_delay_us", column.max_delay ? Json(column.max_delay->count()) : Json(nullptr)},
           {"all", json(s.all)},
           {"rate_mean_hz", s.rate_mean_hz},
           {"rate_median_hz", s.rate_median_hz},

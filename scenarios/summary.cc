@@ -69,6 +69,10 @@ std::string to_json(const Summary& s) {
       {"events", s.events},
       {"events_lost", s.events_lost},
       {"event_rate_hz", s.event_rate_hz},
+      {"max_readout_delay_us", s.max_readout_delay_us},
+      {"bad_radiance", s.bad_radiance},
+      {"renders", s.renders},
+      {"renders_late", s.renders_late},
       {"landed", s.landed},
       {"crashed", s.crashed},
       {"ugv_collided", s.ugv_collided},
@@ -87,8 +91,9 @@ std::string to_table(const Summary& s) {
   std::string table = fmt::format("{}, seed {}\n", s.scenario, s.seed);
   table += row("simulated", fmt::format("{:.1f} s in {:.1f} s ({:.2f} x real time)", s.sim_time_s,
                                         s.wall_time_s, s.real_time_factor));
-  table += row("events", fmt::format("{} ({:.0f} k/s), {} lost", s.events, s.event_rate_hz / 1000,
-                                     s.events_lost));
+  table +=
+      row("events", fmt::format("{} ({:.0f} k/s), {} lost, read out after {} us at most", s.events,
+                                s.event_rate_hz / 1000, s.events_lost, s.max_readout_delay_us));
   table += row("tag found", fmt::format("{} of {} pictures ({:.1f} %), {} false", s.detections,
                                         s.pictures, 100 * s.detection_rate, s.false_detections));
   table += row("  straight", s.straight);

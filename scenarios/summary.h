@@ -34,6 +34,11 @@ struct Summary {
   std::int64_t events = 0;
   std::int64_t events_lost = 0;
   double event_rate_hz = 0;
+  std::int64_t max_readout_delay_us = 0;  ///< from a pixel's request to its readout
+  std::int64_t bad_radiance = 0;          ///< pixel values corrected: negative, not finite
+
+  std::int64_t renders = 0;
+  std::int64_t renders_late = 0;  ///< farther apart than renderer.max_motion_px asks
 
   bool landed = false;
   bool crashed = false;

@@ -35,7 +35,7 @@ void CameraThread::expose(core::Time t, bool ends_packet) {
 CameraOutput CameraThread::take() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return error_ || !outputs_.empty(); });
-  if (error_) std::rethrow_exception(error_);
+  if (outputs_.empty()) std::rethrow_exception(error_);
   CameraOutput output = std::move(outputs_.front());
   outputs_.pop_front();
   return output;

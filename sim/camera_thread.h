@@ -37,8 +37,9 @@ class CameraThread {
   void expose(core::Time t, bool ends_packet);
 
   /// The earliest packet that was not taken yet; waits until its last picture is
-  /// exposed. Throws what SimulatedCamera::expose threw, now and ever after. Once every
-  /// packet is taken, and until the next expose(), the camera itself may be looked at.
+  /// exposed. After the packets that were complete when SimulatedCamera::expose threw,
+  /// throws that, every time. Once every packet is taken, and until the next expose(),
+  /// the camera itself may be looked at.
   CameraOutput take();
 
  private:

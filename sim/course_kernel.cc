@@ -2,17 +2,17 @@
 
 #include <cmath>
 
+#include "sim/instruction_sets.h"
+
 namespace nightjar::sim {
 namespace {
 
-[[gnu::always_inline]] inline void set_up_body(CourseStarts& c, double rate_per_intensity,
-                                               double dt_s) {
+[[gnu::always_inline]] inline void set_up_body(CourseStarts& c, double dt_s) {
   const std::uint32_t count = c.count;
 #pragma GCC ivdep
   for (std::uint32_t i = 0; i < count; ++i) {
-    const double rate = rate_per_intensity * (c.mean_intensity[i] + 20.0) * dt_s;
     c.course[i] = ResidualCourse::over_step(c.change[i], c.leak_per_s[i] * dt_s, c.lag[i],
-                                            c.residual[i], rate);
+                                            c.residual[i], c.rate[i]);
   }
 }
 
@@ -59,25 +59,20 @@ namespace {
   return moving;
 }
 
-void set_up_plain(CourseStarts& c, double rate_per_intensity, double dt_s) {
-  set_up_body(c, rate_per_intensity, dt_s);
-}
+void set_up_plain(CourseStarts& c, double dt_s) { set_up_body(c, dt_s); }
 void start_plain(Crossings& c) { start_body(c); }
 std::uint64_t improve_plain(Crossings& c, double tolerance) { return improve_body(c, tolerance); }
 
 #if defined(__x86_64__)
-[[gnu::target("avx2")]] void set_up_avx2(CourseStarts& c, double rate_per_intensity, double dt_s) {
-  set_up_body(c, rate_per_intensity, dt_s);
-}
+[[gnu::target("avx2")]] void set_up_avx2(CourseStarts& c, double dt_s) { set_up_body(c, dt_s); }
 [[gnu::target("avx2")]] void start_avx2(Crossings& c) { start_body(c); }
 [[gnu::target("avx2")]] std::uint64_t improve_avx2(Crossings& c, double tolerance) {
   return improve_body(c, tolerance);
 }
 
 [[gnu::target("avx512f,avx512bw,avx512dq,avx512vl")]] void set_up_avx512(CourseStarts& c,
-                                                                         double rate_per_intensity,
                                                                          double dt_s) {
-  set_up_body(c, rate_per_intensity, dt_s);
+  set_up_body(c, dt_s);
 }
 [[gnu::target("avx512f,avx512bw,avx512dq,avx512vl")]] void start_avx512(Crossings& c) {
   start_body(c);
@@ -93,10 +88,8 @@ std::uint64_t improve_plain(Crossings& c, double tolerance) { return improve_bod
 std::vector<CourseVariant> course_variants() {
   std::vector<CourseVariant> variants{{"plain", set_up_plain, start_plain, improve_plain}};
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2"))
-    variants.push_back({"avx2", set_up_avx2, start_avx2, improve_avx2});
-  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl"))
+  if (instruction_sets().avx2) variants.push_back({"avx2", set_up_avx2, start_avx2, improve_avx2});
+  if (instruction_sets().avx512)
     variants.push_back({"avx512", set_up_avx512, start_avx512, improve_avx512});
 #endif
   return variants;
@@ -119,9 +112,7 @@ void solve(const CourseVariant& variant, Crossings& crossings, double tolerance)
     if (variant.improve(crossings, tolerance) == 0) break;
 }
 
-void set_up(CourseStarts& starts, double rate_per_intensity, double dt_s) {
-  best().set_up(starts, rate_per_intensity, dt_s);
-}
+void set_up(CourseStarts& starts, double dt_s) { best().set_up(starts, dt_s); }
 
 void solve(Crossings& crossings, double tolerance) { solve(best(), crossings, tolerance); }
 

@@ -16,12 +16,12 @@ struct alignas(64) CourseStarts {
   std::uint32_t count = 0;
   // Over the step, as in ResidualCourse::over_step.
   float change[kMostCourses], leak_per_s[kMostCourses], lag[kMostCourses], residual[kMostCourses];
-  float mean_intensity[kMostCourses];
+  float rate[kMostCourses];
   ResidualCourse course[kMostCourses];  ///< The result.
 };
 
-/// `rate_per_intensity` as in pixel_kernel.h. Every instruction set gives the same bits.
-void set_up(CourseStarts& starts, double rate_per_intensity, double dt_s);
+/// Every instruction set gives the same bits.
+void set_up(CourseStarts& starts, double dt_s);
 
 /// Threshold crossings to be found, many at a time: one column each.
 struct alignas(64) Crossings {
@@ -56,7 +56,7 @@ void solve(Crossings& crossings, double tolerance);
 /// What the functions above take for one instruction set.
 struct CourseVariant {
   const char* name;
-  void (*set_up)(CourseStarts&, double rate_per_intensity, double dt_s);
+  void (*set_up)(CourseStarts&, double dt_s);
   void (*start)(Crossings&);
   std::uint64_t (*improve)(Crossings&, double tolerance);  ///< Returns how many are not settled.
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <numbers>
 #include <optional>
@@ -12,6 +13,7 @@
 
 #include "core/random.h"
 #include "sim/fired_events.h"
+#include "sim/intensity.h"
 #include "sim/leak.h"
 #include "sim/noise.h"
 #include "sim/noise_candidates.h"
@@ -23,6 +25,11 @@ namespace {
 
 constexpr int kMostSidePx = 32767;
 constexpr core::Time kLongestStep = std::chrono::hours(1);
+
+// A white pixel's k dt in one go, so that k changes little while the photoreceptor follows.
+constexpr double kMostKdt = 1;
+// With so many parts k hardly changes over one, however fast the photoreceptor.
+constexpr int kMostParts = 32;
 
 void check(const PixelConfig& config, core::Resolution size, double white_lux) {
   core::check_config(config, "pixel");
@@ -64,8 +71,13 @@ class EventEmulator::Pixels {
   void fill_blocks(const Leak& leak, std::uint64_t seed);
   void check_step(core::Time t, const core::Image<float>& luminance_lux) const;
   void settle(const float* luminance_lux);
-  void advance(core::Time t, const float* luminance_lux);
-  void advance_block(std::uint32_t first_pixel, const float* luminance_lux);
+  int parts(core::Time dt) const;
+  void advance_in_parts(core::Time t, int parts, const float* luminance_lux,
+                        std::vector<core::Event>& events);
+  /// To `t` at once. `dense` takes the first pixel of a block, the block and what it leaves.
+  template <class Dense>
+  void advance(core::Time t, Dense dense, std::vector<core::Event>& events);
+  void walk_block(std::uint32_t first_pixel, PixelBlock& block);
   void mark_resting(std::uint32_t first_pixel);
   void walk_noisy(std::uint32_t first_pixel, PixelBlock& block);
   void walk_crossed(std::uint32_t first_pixel, PixelBlock& block);
@@ -93,6 +105,9 @@ class EventEmulator::Pixels {
   std::vector<std::uint32_t> resting_;  ///< Pixels, ascending.
   std::size_t next_resting_ = 0;
   BlockStep block_step_;
+
+  // Intensities of a step in parts: at its ends and at the end of a part.
+  std::vector<float> from_, to_, between_;
 };
 
 EventEmulator::Pixels::Pixels(const PixelConfig& config, core::Resolution size, double white_lux,
@@ -108,7 +123,7 @@ EventEmulator::Pixels::Pixels(const PixelConfig& config, core::Resolution size, 
       blocks_((pixels_ + PixelBlock::kPixels - 1) / PixelBlock::kPixels),
       noise_(config, threshold_on, threshold_off, seed),
       walks_(config, pixels_, Leak(config, threshold_on, seed)) {
-  fill_blocks(Leak(config, threshold_on, seed), seed);
+  fill_blocks(walks_.leak(), seed);
 }
 
 void EventEmulator::Pixels::fill_blocks(const Leak& leak, std::uint64_t seed) {
@@ -138,14 +153,47 @@ void EventEmulator::Pixels::step(core::Time t, const core::Image<float>& luminan
                                  std::vector<core::Event>& events) {
   check_step(t, luminance_lux);
   const float* luminance = luminance_lux.pixels().data();
-  if (now_) {
-    advance(t, luminance);
-    fired_.hand_over(*now_, t - *now_, size_.width_px, events);
-  } else {
+  if (!now_) {
     settle(luminance);
     noise_.start(t);
+    now_ = t;
+  } else if (const int n = parts(t - *now_); n > 1) {
+    advance_in_parts(t, n, luminance, events);
+  } else {
+    const auto dense = [&](std::uint32_t first, PixelBlock& block) {
+      count(advance_pixels(kernel_, luminance + first, block_size(first), block, block_step_));
+    };
+    advance(t, dense, events);
   }
-  now_ = t;
+}
+
+/// Never more than there are microseconds, since the cutoff is at most 1e5 Hz.
+int EventEmulator::Pixels::parts(core::Time dt) const {
+  const double white_kdt = rate_per_intensity(config_) * kWhiteWithOffset * core::seconds(dt);
+  return static_cast<int>(std::clamp(std::ceil(white_kdt / kMostKdt), 1.0, 1.0 * kMostParts));
+}
+
+void EventEmulator::Pixels::advance_in_parts(core::Time t, int parts, const float* luminance_lux,
+                                             std::vector<core::Event>& events) {
+  for (std::vector<float>* room : {&from_, &to_, &between_}) room->resize(pixels_);
+  for (std::uint32_t first = 0; first < pixels_; first += PixelBlock::kPixels) {
+    const PixelBlock& block = blocks_[first / PixelBlock::kPixels];
+    std::copy_n(block.intensity, block_size(first), &from_[first]);
+    count(clean_intensities(kernel_, luminance_lux + first, block_size(first), block, &to_[first]));
+  }
+  const core::Time begin = *now_, dt = t - begin;
+  for (int part = 1; part <= parts; ++part) {
+    const core::Time end = begin + dt * part / parts;
+    if (end < t)
+      intensities_between(kernel_, from_.data(), to_.data(),
+                          static_cast<float>(core::seconds(end - begin) / core::seconds(dt)),
+                          pixels_, between_.data());
+    const float* intensity = end < t ? between_.data() : to_.data();
+    const auto dense = [&](std::uint32_t first, PixelBlock& block) {
+      advance_clean_pixels(kernel_, intensity + first, block_size(first), block, block_step_);
+    };
+    advance(end, dense, events);
+  }
 }
 
 void EventEmulator::Pixels::settle(const float* luminance_lux) {
@@ -154,22 +202,27 @@ void EventEmulator::Pixels::settle(const float* luminance_lux) {
                         blocks_[first / PixelBlock::kPixels]));
 }
 
-void EventEmulator::Pixels::advance(core::Time t, const float* luminance_lux) {
-  dt_us_ = static_cast<double>((t - *now_).count());
+template <class Dense>
+void EventEmulator::Pixels::advance(core::Time t, Dense dense, std::vector<core::Event>& events) {
+  const core::Time begin = *now_, dt = t - begin;
+  dt_us_ = static_cast<double>(dt.count());
   per_us_ = 1 / dt_us_;
   set_step(kernel_, config_, dt_us_ * 1e-6);
-  walks_.begin_step(*now_, t - *now_);
+  walks_.begin_step(begin, dt);
   candidates_ = noise_.draw(t);
   next_candidate_ = picked_noise_ = next_resting_ = 0;
-  for (std::uint32_t first = 0; first < pixels_; first += PixelBlock::kPixels)
-    advance_block(first, luminance_lux + first);
+  for (std::uint32_t first = 0; first < pixels_; first += PixelBlock::kPixels) {
+    PixelBlock& block = blocks_[first / PixelBlock::kPixels];
+    dense(first, block);
+    walk_block(first, block);
+  }
   walks_.run(fired_, counts);
   resting_ = walks_.take_resting();
+  fired_.hand_over(begin, dt, size_.width_px, events);
+  now_ = t;
 }
 
-void EventEmulator::Pixels::advance_block(std::uint32_t first_pixel, const float* luminance_lux) {
-  PixelBlock& block = blocks_[first_pixel / PixelBlock::kPixels];
-  count(advance_pixels(kernel_, luminance_lux, block_size(first_pixel), block, block_step_));
+void EventEmulator::Pixels::walk_block(std::uint32_t first_pixel, PixelBlock& block) {
   walks_.make_room(PixelBlock::kPixels, fired_, counts);
   mark_resting(first_pixel);
   walk_noisy(first_pixel, block);

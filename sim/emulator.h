@@ -14,8 +14,10 @@ namespace nightjar::sim {
 
 /// The event pixels: photoreceptor, thresholds, refractory period, leak, shot noise
 /// and hot pixels, after v2e, with a crossing time of each event's own (as ESIM) and
-/// an exact photoreceptor, so that the step size matters little: what is lost is an
-/// excursion that comes and goes within one step.
+/// a photoreceptor in closed form, so that the step size matters little: what is lost
+/// is an excursion that comes and goes within one step. The closed form takes the
+/// photoreceptor's rate constant k at its mean; a step over which a white pixel's
+/// k dt exceeds 1 therefore goes in equal parts, 32 at most.
 ///
 /// The noise processes run on their own clocks and streams: neither the step size
 /// nor another effect's switch changes their draws.
@@ -34,7 +36,8 @@ class EventEmulator {
   /// two calls the log intensity is linear in time. The first call settles the
   /// pixels and gives no events; each other one appends those of (previous t, t],
   /// ordered by time, then y, then x.
-  /// Negative radiance counts as 0; NaN and infinity as the pixel's last value.
+  /// Negative radiance counts as 0. NaN, infinity and whatever is beyond +-1e20 count
+  /// as not finite, and the pixel's last value holds (0 in the first call).
   /// Throws std::invalid_argument for another size, a time that does not increase,
   /// or a step of more than an hour; the pixels are then as before.
   void step(core::Time t, const core::Image<float>& luminance_lux,

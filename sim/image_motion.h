@@ -29,8 +29,8 @@ std::optional<Eigen::Vector2d> image_velocity(const core::CameraModel& model,
                                               const Eigen::Vector3d& p_world_m,
                                               const Eigen::Vector3d& v_world_m_s);
 
-/// An upper bound of the image speed (px/s) of all points in the box that the camera
-/// may see, whatever hides them; 0 when none is in the picture, infinite from within.
+/// An upper bound, to 1 %, of the image speed (px/s) of all points in the box that the
+/// camera may see, whatever hides them; 0 when none is in the picture, infinite from within.
 /// Looks at a grid over the pixels where the box can appear: image motion at a given
 /// depth is quadratic in the pixel, so that its extremes are at the rim.
 double motion_bound_px_s(const core::CameraModel& model, const MovingCamera& camera,

@@ -12,8 +12,10 @@ struct KernelStep {
   float scale = 1;   ///< Intensity per lux.
   float knee = 20;   ///< Linear up to here; -1 = logarithm only.
   float linear = 0;  ///< Log intensity per intensity below the knee.
+  /// What makes the integral of the intensity over its log continuous at the knee.
+  float knee_area = 0;
   bool low_pass = true;
-  float decay = 0;  ///< k dt per unit of (intensity + 20) summed over both ends.
+  float decay = 0;  ///< k dt per unit of (intensity + 20).
   float dt_s = 0;
 };
 
@@ -38,6 +40,8 @@ struct alignas(64) BlockStep {
   float intensity[PixelBlock::kPixels];  ///< Before the step, as `lag` and
                                          ///< `residual`.
   float lag[PixelBlock::kPixels] = {};   ///< 0 without a low pass.
+  float kdt[PixelBlock::kPixels] = {};   ///< The integral of the rate constant over the
+                                         ///< step; 0 without a low pass.
   float residual[PixelBlock::kPixels];
   float change[PixelBlock::kPixels];  ///< Of the log intensity.
   /// 1 where the residual has reached a threshold, else 0, also beyond the last pixel.
@@ -60,18 +64,35 @@ double rate_per_intensity(const PixelConfig& config);
 
 /// Advances the first `count` pixels of a block by one step as if none fired:
 /// the log intensity is linear over the step, the photoreceptor follows it
-/// exactly at the mean of its rate constants at both ends, the leak is added.
+/// in closed form at the mean of its rate constant over the step, the leak is
+/// added. So what it lagged before decays exactly, and what it lags by the
+/// change as far as the rate constant is steady over the step.
 /// `luminance_lux` has `count` values. Every instruction set gives the same
 /// bits.
 BadInputs advance_pixels(const KernelStep& step, const float* luminance_lux, std::uint32_t count,
                          PixelBlock& block, BlockStep& result);
 
-/// The heart of advance_pixels for one instruction set; every input has to be
-/// usable.
+/// The intensities that advance_pixels would take `luminance_lux` for.
+BadInputs clean_intensities(const KernelStep& step, const float* luminance_lux, std::uint32_t count,
+                            const PixelBlock& block, float* intensity);
+
+/// As advance_pixels, for intensities of clean_intensities or in between.
+void advance_clean_pixels(const KernelStep& step, const float* intensity, std::uint32_t count,
+                          PixelBlock& block, BlockStep& result);
+
+/// Intensities at a `share` of the way, from 0 to 1, on which the logarithm of each goes
+/// straight from that of `before` to that of `after`. Same bits on every processor.
+void intensities_between(const KernelStep& step, const float* before, const float* after,
+                         float share, std::uint32_t count, float* intensity);
+
+/// The heart of advance_pixels for one instruction set.
 struct KernelVariant {
-  using Advance = bool (*)(const KernelStep&, const float* luminance_lux, std::uint32_t count,
+  /// Every input has to be usable.
+  using Advance = void (*)(const KernelStep&, const float* luminance_lux, std::uint32_t count,
                            PixelBlock&, BlockStep&);
   const char* name;
+  /// False if any input has to be corrected, be it from -0 to 0.
+  bool (*usable)(const float* luminance_lux, std::uint32_t count);
   Advance with_low_pass;
   Advance without_low_pass;
 };

@@ -69,7 +69,7 @@ namespace nightjar::sim {
   return low + (middle + (high + 1.2907631378e-4f * a2) * a2) * a2;
 }
 
-/// exp(-a) for a >= 0, to 1e-14 relative up to 700 and as there beyond.
+/// exp(-a) for a >= -700, to 1e-14 relative up to 700 and as there beyond.
 [[gnu::always_inline]] inline double fast_exp_minus(double a) {
   const double x = -select(a < 700.0, a, 700.0);
   // x = n ln 2 + r as above, with 1.5 * 2^52.

@@ -7,7 +7,6 @@ namespace nightjar::sim {
 
 PixelWalks::PixelWalks(const PixelConfig& config, std::uint32_t pixels, Leak leak)
     : refractory_us_(config.refractory_us),
-      rate_per_intensity_(rate_per_intensity(config)),
       leak_(std::move(leak)),
       rest_until_us_(config.refractory_us > 0 ? pixels : 0, -1e300) {
   walks_.reserve(kMostCourses);
@@ -21,7 +20,7 @@ void PixelWalks::begin_step(core::Time begin, core::Time dt) {
 }
 
 void PixelWalks::set_off() {
-  set_up(starts_, rate_per_intensity_, dt_us_ * 1e-6);
+  set_up(starts_, dt_us_ * 1e-6);
   open_.clear();
   for (std::uint32_t k = 0; k < starts_.count; ++k) {
     Walk& walk = walks_[k];

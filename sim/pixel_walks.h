@@ -20,6 +20,8 @@ class PixelWalks {
  public:
   PixelWalks(const PixelConfig& config, std::uint32_t pixels, Leak leak);
 
+  const Leak& leak() const { return leak_; }
+
   /// No walk may be pending.
   void begin_step(core::Time begin, core::Time dt);
 
@@ -59,7 +61,6 @@ class PixelWalks {
   double in_step(double t_us) const { return (t_us - begin_us_) * per_us_; }
 
   double refractory_us_;
-  double rate_per_intensity_;
   Leak leak_;
   std::vector<double> rest_until_us_;  ///< Of all pixels; empty without refractory period.
   std::vector<std::uint32_t> resting_;
@@ -80,7 +81,7 @@ inline void PixelWalks::add(std::uint32_t first_pixel, std::uint32_t i, PixelBlo
   starts_.leak_per_s[k] = block.leak_per_s[i];
   starts_.lag[k] = before.lag[i];
   starts_.residual[k] = before.residual[i];
-  starts_.mean_intensity[k] = 0.5f * before.intensity[i] + 0.5f * block.intensity[i];
+  starts_.rate[k] = before.kdt[i];
   walks_.push_back(
       {{}, noise, block.threshold_on[i], block.threshold_off[i], &block, i, first_pixel + i});
   leak_.prefetch(first_pixel + i);

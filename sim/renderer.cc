@@ -31,7 +31,7 @@ constexpr int kMostCode = 65535;
 OSMesaContext create_context() {
   // llvmpipe filters 8-bit textures in 8-bit arithmetic unless told otherwise, and
   // reads this before its first context: without it a drawn picture has some 200
-  // different values, with it as many as pixels.
+  // different values, with it 50 times as many.
   setenv("GALLIVM_PERF", "no_aos_sampling", 1);
   // Draws on the calling thread: the camera's and the messages' threads have use for the
   // other cores, and waiting for llvmpipe's own threads costs more than they gain
@@ -39,8 +39,7 @@ OSMesaContext create_context() {
   setenv("LP_NUM_THREADS", "0", 0);
   const std::array<int, 5> attributes = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 24, 0};
   OSMesaContext context = OSMesaCreateContextAttribs(attributes.data(), nullptr);
-  if (context == nullptr)
-    throw std::runtime_error("OSMesa gave no context; is libosmesa6 installed?");
+  if (context == nullptr) throw std::runtime_error("OSMesa gave no context to draw in");
   return context;
 }
 
@@ -73,12 +72,14 @@ void to_mean_luminance(const std::uint16_t* rgba, int n, float lux_per_code,
 /// OSMesa's context and buffer, MuJoCo's scene and its GL resources.
 struct Renderer::Gl {
   OSMesaContext context = create_context();
-  std::vector<std::uint16_t> rgba;
+  std::vector<std::uint16_t> rgba = std::vector<std::uint16_t>(kChannels);
   mjvScene geoms{};
   mjvOption option{};
   mjrContext resources{};
 
   ~Gl() {
+    // What is freed is numbered by context: another renderer's must not be the current one.
+    OSMesaMakeCurrent(context, rgba.data(), GL_UNSIGNED_SHORT, 1, 1);
     mjr_freeContext(&resources);
     mjv_freeScene(&geoms);
     OSMesaDestroyContext(context);

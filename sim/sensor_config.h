@@ -110,7 +110,8 @@ enum class ApsBits { eight = 8, ten = 10 };
 
 inline constexpr core::Choices<ApsBits, 2> kApsBits{{{"8", ApsBits::eight}, {"10", ApsBits::ten}}};
 
-/// Active pixels (dynamic range 55 dB).
+/// Active pixels. Their dynamic range follows from the defaults: full well over read
+/// noise, 20 log10(25000 / 44) = 55 dB.
 struct ApsConfig {
   double exposure_ms = 0.0;    ///< 0 = what the light needs: see aps_exposure().
   double interval_ms = 40.0;   ///< From exposure to exposure; longer if the exposure is.

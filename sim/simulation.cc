@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <stdexcept>
 #include <utility>
 
@@ -51,15 +52,20 @@ void Simulation::fly(const core::AttitudeSetpoint& setpoint) {
   world_.command(setpoint);
   const core::Time packet_end = world_.now() + packet_interval_;
   while (world_.now() < packet_end) {
+    const core::Time before = world_.now();
     const double motion_px_s = bounding_([this] { return world_.image_motion_px_s(); });
-    const core::Time due =
-        std::min(packet_end,
-                 world_.now() + render_interval(renderer_config_, motion_px_s, world_.time_step()));
+    const core::Time due = std::min(
+        packet_end, before + render_interval(renderer_config_, motion_px_s, world_.time_step()));
     moving_([&] {
       while (world_.now() < due) world_.step();
     });
+    drawn_late_ += motion_px_s * core::seconds(due - before) > renderer_config_.max_motion_px;
+    if (due == packet_end) note_world();  // before the camera can be done with the packet
     render(due == packet_end);
   }
+}
+
+void Simulation::note_world() {
   const std::lock_guard lock(mutex_);
   flown_.push_back({{}, {}, world_.take_imu(), world_.vehicle_state(), world_.truth()});
 }
@@ -67,6 +73,7 @@ void Simulation::fly(const core::AttitudeSetpoint& setpoint) {
 SimulationStep Simulation::take() {
   CameraOutput camera = waiting_([this] { return camera_thread_.take(); });
   const std::lock_guard lock(mutex_);
+  assert(!flown_.empty());
   SimulationStep step = std::move(flown_.front());
   flown_.pop_front();
   step.packet = std::move(camera.packet);

@@ -42,7 +42,8 @@ class Simulation {
   void fly(const core::AttitudeSetpoint& setpoint);
 
   /// What the earliest packet flown and not yet taken gave; waits for the camera. May
-  /// run beside fly() of the next packet.
+  /// run beside fly() of the next packet. There must be such a packet: one whose fly()
+  /// has returned.
   SimulationStep take();
 
   /// Both in one.
@@ -53,17 +54,23 @@ class Simulation {
   /// The camera, to look at once every packet is taken.
   const SimulatedCamera& camera() const { return camera_; }
   std::uint64_t renders() const { return drawing_.time().calls; }
+  /// Of them, those that came later than max_motion_px asks, a physics step after the
+  /// one before.
+  std::uint64_t drawn_late() const { return drawn_late_; }
   /// Of the world and of its camera.
   std::vector<core::StageTime> stage_times() const;
 
  private:
   void render(bool ends_packet);
+  /// Keeps what the world gives at the end of a packet.
+  void note_world();
 
   RendererConfig renderer_config_;
   double illuminance_lux_;
   core::Time packet_interval_;
   World world_;
   SimulatedCamera camera_;
+  std::uint64_t drawn_late_ = 0;
   core::StageTimer moving_{"step physics", "world"};
   core::StageTimer bounding_{"bound motion", "world"};
   core::StageTimer drawing_{"draw", "world"};

@@ -26,6 +26,7 @@ jq '[.benchmarks[] | select(.aggregate_name == "median")
     | [$all[] | select(.name | contains("_reference"))
        | {key: (.name | sub("_reference"; "")), time}] as $references
     | {context: (.context | {date, num_cpus, mhz_per_cpu, load_avg}),
+       note: "median of 5 rounds in random order; times_reference: how many times as fast",
        benchmarks: [$all[] | . as $b
          | ([$references[] | select(.key as $k | $b.name | startswith($k))][0]) as $r
          | . + {times_reference: (if $r then $r.time / .time else null end)}]}' "$raw" >"$file"

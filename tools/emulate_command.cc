@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -19,6 +18,7 @@
 #include "scenarios/scenario.h"
 #include "tools/interrupt.h"
 #include "tools/progress_bar.h"
+#include "tools/sensor_options.h"
 
 namespace nightjar::tools {
 namespace {
@@ -47,7 +47,8 @@ from one to the next. The sensor has the size of the frames (or --size, 346x260 
 DAVIS346), frames are not undistorted or cropped.
 
 EVENTS.txt has one event a line, "t_seconds x y polarity", polarity 1 = ON, 0 = OFF; the
-first frame is at 0. It appears when it is complete.
+first frame is at 0. It appears when it is complete. Events that wait for the readout at
+the last frame come at its end, with times after that frame.
 
 Examples:
   nightjar emulate frames/ --fps 500 --preset dim --out events.txt
@@ -104,28 +105,6 @@ void check_out(const std::filesystem::path& out) {
   const char* later = out.extension() == ".aedat4" ? " (AEDAT4 comes later)" : "";
   throw std::invalid_argument(
       fmt::format("--out = {}, allowed a name ending in .txt{}", out.string(), later));
-}
-
-sim::SensorPreset parse_preset(const std::string& name) {
-  std::string allowed;
-  for (const auto& [each, preset] : sim::kSensorPresets) {
-    if (preset == sim::SensorPreset::custom) continue;  // its pixels need a scenario file
-    if (name == each) return preset;
-    allowed += (allowed.empty() ? "" : ", ") + std::string(each);
-  }
-  throw std::invalid_argument(fmt::format("--preset = {}, allowed {}", name, allowed));
-}
-
-core::Resolution parse_size(const std::string& text) {
-  core::Resolution size;
-  const char* end = text.data() + text.size();
-  const auto width = std::from_chars(text.data(), end, size.width_px);
-  if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
-    const auto height = std::from_chars(width.ptr + 1, end, size.height_px);
-    if (height.ec == std::errc() && height.ptr == end) return size;
-  }
-  throw std::invalid_argument(
-      fmt::format("--size = {}, expected WIDTHxHEIGHT as in 346x260", text));
 }
 
 /// A value that would change nothing is refused, and so is one that is missing.

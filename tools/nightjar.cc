@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <stdexcept>
@@ -16,6 +17,13 @@ namespace {
 
 using namespace nightjar::tools;
 
+// What OpenCV asks the environment for, see camera::open_frames(); a user's own choice
+// stands. Before any thread begins.
+void set_up_opencv() {
+  setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 0);
+  setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);  // our own error says what is wrong
+}
+
 int complain(int exit_code, std::string message) {
   std::replace(message.begin(), message.end(), '\n', ' ');
   std::cerr << "nightjar: " << message << '\n';
@@ -25,6 +33,7 @@ int complain(int exit_code, std::string message) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  set_up_opencv();
   CLI::App app("Nightjar flies an event camera over a tagged ground vehicle, in the dark.");
   app.set_version_flag("--version", NIGHTJAR_VERSION);
   app.require_subcommand(0, 1);  // none is refused below, after a misspelt one

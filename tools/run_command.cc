@@ -55,7 +55,8 @@ void declare(CLI::App& command, Arguments& arguments) {
   command.add_flag("--record-events", arguments.record_events,
                    "add the raw events to run.lcm: about a gigabyte a minute");
   command.add_flag("--profile", arguments.profile,
-                   "also print what each stage of the loop took (wall time)");
+                   "print what each stage of the loop took (wall time), also with --quiet; with "
+                   "--json it is in the JSON anyway");
   command.add_flag("--json", arguments.json, "print summary.json instead of a table");
   command.add_flag("--quiet", arguments.quiet, "no progress, no log, no table");
   command.footer(kExamples);
@@ -94,7 +95,8 @@ int run(const Arguments& arguments) {
     std::cout << to_json(summary);
   else if (!arguments.quiet)
     std::cout << to_table(summary);
-  if (arguments.profile && !arguments.json) std::cout << '\n' << profile_table(summary);
+  if (arguments.profile && !arguments.json)
+    std::cout << (arguments.quiet ? "" : "\n") << profile_table(summary);
   return summary.passed ? kPassed : kFailed;
 }
 

@@ -38,7 +38,7 @@ cv::Mat scaled(const cv::Mat& picture, int type, double factor) {
 class PictureFolderTest : public testing::Test {
  protected:
   void write(const std::string& name, const cv::Mat& picture) const {
-    setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 0);  // for writing, as the reader does for reading
+    setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 0);  // see open_frames()
     ASSERT_TRUE(cv::imwrite((folder_ / name).string(), picture)) << name;
   }
   void write_two(const std::string& extension, const cv::Mat& picture) const {
@@ -141,15 +141,27 @@ TEST_F(PictureFolderTest, resizes_by_averaging_over_the_area) {
 TEST_F(PictureFolderTest, counts_what_is_no_intensity_before_resizing) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
   constexpr float kInf = std::numeric_limits<float>::infinity();
-  write_two(".exr", (cv::Mat_<float>(1, 6) << -2, 4, kNan, 1, kInf, -kInf));
-  options.size = {3, 1};
+  write_two(".exr", (cv::Mat_<float>(1, 8) << -2, 4, kNan, 1, kInf, -kInf, 1e21f, 1));
+  options.size = {4, 1};
   const auto frames = open();
   core::Image<float> frame;
   ASSERT_TRUE(frames->next(frame));
   EXPECT_FLOAT_EQ(frame(0, 0), 2.0f);  // of 0 and 4: a negative value darkens no neighbour
   EXPECT_TRUE(std::isnan(frame(1, 0)));
   EXPECT_TRUE(std::isnan(frame(2, 0)));
-  EXPECT_EQ(frames->bad_values(), 4u);
+  EXPECT_TRUE(std::isnan(frame(3, 0)));
+  EXPECT_EQ(frames->bad_values(), 5u);
+}
+
+TEST_F(PictureFolderTest, takes_minus_zero_for_zero_and_the_greatest_light_as_it_is) {
+  write_two(".exr", (cv::Mat_<float>(1, 2) << -0.0f, 1e20f));
+  const auto frames = open();
+  core::Image<float> frame;
+  ASSERT_TRUE(frames->next(frame));
+  EXPECT_EQ(frame(0, 0), 0.0f);
+  EXPECT_FALSE(std::signbit(frame(0, 0)));
+  EXPECT_EQ(frame(1, 0), 1e20f);
+  EXPECT_EQ(frames->bad_values(), 0u);
 }
 
 TEST_F(PictureFolderTest, names_the_picture_that_has_another_size) {
@@ -180,6 +192,13 @@ TEST_F(PictureFolderTest, refuses_a_folder_with_too_few_pictures) {
                              HasSubstr(": 0 pictures, needed at least 2 (.png .tif")));
   write("frame1.png", codes());
   EXPECT_THAT(reading(), ThrowsMessage<std::invalid_argument>(HasSubstr(": 1 pictures")));
+}
+
+// Root reads every folder, so that one which is not there stands for one not to be read.
+TEST_F(PictureFolderTest, names_a_folder_that_cannot_be_read) {
+  EXPECT_THAT([&] { PictureFolder(folder_ / "none", options); },
+              ThrowsMessage<std::invalid_argument>(
+                  EndsWith("none: cannot be read, No such file or directory")));
 }
 
 TEST_F(PictureFolderTest, refuses_pictures_of_several_kinds) {

@@ -65,6 +65,9 @@ TEST_F(ClosedLoop, SmokeScenarioFindsTheTagFollowsAndLands) {
   EXPECT_EQ(json["pictures"].get<std::int64_t>(), summary.pictures);
   EXPECT_EQ(json["estimates_sha256"].get<std::string>(), summary.estimates_sha256);
   EXPECT_EQ(summary.pictures, std::lround(summary.sim_time_s * 100));  // one a packet of 10 ms
+  // Just above the board all pixels ask at once: a full queue takes 1 ms to read.
+  EXPECT_GT(summary.events_lost, 0);
+  EXPECT_GE(summary.max_readout_delay_us, 990);
 }
 
 TEST_F(ClosedLoop, OneSeedHasOneResultAndAnotherSeedAnother) {
@@ -89,6 +92,7 @@ TEST_F(ClosedLoop, LogHoldsEveryChannelAndRawEventsOnlyOnRequest) {
        {msg::kTruth.name, msg::kVehicleState.name, msg::kPicture.name, msg::kTagDetections.name,
         msg::kTargetEstimate.name, msg::kAttitudeSetpoint.name})
     EXPECT_EQ(log[channel], 70) << channel;  // one a packet
+  EXPECT_EQ(log[msg::kImu.name], 700);       // one a millisecond
   EXPECT_EQ(log[msg::kApsFrame.name], 1);    // 0.5 s of exposure
   EXPECT_GE(log[msg::kMissionTransition.name], 1);
   EXPECT_EQ(log.count(msg::kEvents.name), 0u);
@@ -121,6 +125,18 @@ TEST_F(ClosedLoop, ARunThatIsStoppedLeavesNothingThatLooksComplete) {
   EXPECT_THROW(run(smoke(5), stopped), std::runtime_error);
   for (const auto& name : {kSummaryFile, kEstimatesFile, kLogFile, kVideoFile})
     EXPECT_FALSE(std::filesystem::exists(scratch_.path() / "stopped" / name)) << name;
+}
+
+TEST_F(ClosedLoop, SummaryHoldsWhatSensorAndRendererCounted) {
+  const Summary summary = run(smoke(0.5), options("counts"));
+  EXPECT_GE(summary.renders, 0.5 * 200);       // 5 ms apart at most
+  EXPECT_LE(summary.renders, 0.5 * 2000 + 1);  // a physics step apart at least
+  EXPECT_LT(summary.renders_late, summary.renders);
+  EXPECT_EQ(summary.bad_radiance, 0);
+  std::map<std::string, std::uint64_t> calls;
+  for (const core::StageTime& time : summary.profile) calls[time.stage] = time.calls;
+  EXPECT_EQ(calls.at("draw"), static_cast<std::uint64_t>(summary.renders));
+  EXPECT_EQ(calls.at("track"), static_cast<std::uint64_t>(summary.pictures));
 }
 
 TEST_F(ClosedLoop, MissedCriteriaAreNamed) {

@@ -216,8 +216,23 @@ TEST(EmulateTest, counts_what_the_readout_loses) {
   EXPECT_GT(some.events_lost, 0u);
   const std::uint64_t all_events = all.events_on + all.events_off;
   const std::uint64_t accounted = some.events_on + some.events_off + some.events_lost;
-  EXPECT_LE(accounted, all_events);
-  EXPECT_GE(accounted + 10, all_events);  // the queue's 10 may still wait
+  EXPECT_EQ(accounted, all_events);
+  // When one is lost 10 wait, and the last of them waits for the others' 10 us each.
+  EXPECT_GE(some.max_delay, Time(90));
+}
+
+TEST(EmulateTest, hands_over_what_waits_in_the_readout_after_the_last_frame) {
+  EmulateOptions options = perfect();
+  options.sensor.readout.max_event_rate_hz = 1e3;
+  // 5 steps of 0.2 up (as above) within 100 us, then read out 1 ms apart.
+  const Result result = run(pixel_frames({50, 150}), 1e4, options);
+  ASSERT_EQ(result.events.size(), 5u);
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(result.events[i].t, result.events[0].t + Time(1000 * i));
+  EXPECT_LT(result.events[0].t, Time(100));
+  EXPECT_EQ(result.emulation.events_on, 5u);
+  EXPECT_DOUBLE_EQ(result.emulation.duration_s, 1e-4);
+  // The last crosses 4 of 5.49 steps' time (100 us) after the first; 1 us of rounding each.
+  EXPECT_NEAR(static_cast<double>(result.emulation.max_delay.count()), 4000 - 4 * 100 / 5.49, 2);
 }
 
 TEST(EmulateTest, needs_two_frames) {
@@ -233,8 +248,8 @@ TEST(EmulateTest, warns_of_what_was_wrong_with_the_frames) {
   frames.announced = 40;
   const Emulation emulation = run(frames, perfect()).emulation;
   EXPECT_EQ(warning(emulation),
-            "12 pixels of the frames were negative (taken as 0), NaN or infinite (taken as the "
-            "pixel's last value); only 3 of 40 frames could be decoded");
+            "12 pixels of the frames were negative (taken as 0), NaN, infinite or beyond 1e20 "
+            "(taken as the pixel's last value); only 3 of 40 frames could be decoded");
 }
 
 TEST(EmulateTest, holds_a_pixel_whose_frame_has_no_number) {
@@ -244,8 +259,9 @@ TEST(EmulateTest, holds_a_pixel_whose_frame_has_no_number) {
 }
 
 TEST(EmulateTest, writes_its_summary_as_json) {
-  const Emulation emulation =
-      run(moving_bar(20), kRateHz, preset(sim::SensorPreset::clean)).emulation;
+  EmulateOptions options = preset(sim::SensorPreset::clean);
+  options.sensor.readout.max_event_rate_hz = 1e6;  // slow enough that events wait
+  const Emulation emulation = run(moving_bar(20), kRateHz, options).emulation;
   const auto json = nlohmann::json::parse(to_json(emulation));
   EXPECT_EQ(json["frames"], 20);
   EXPECT_EQ(json["width_px"], 64);
@@ -253,6 +269,10 @@ TEST(EmulateTest, writes_its_summary_as_json) {
   EXPECT_EQ(json["events"], emulation.events_on + emulation.events_off);
   EXPECT_EQ(json["events_lost"], 0);
   EXPECT_EQ(json["bad_values"], 0);
+  EXPECT_GT(emulation.max_delay, Time(0));
+  EXPECT_EQ(json["max_delay_us"], emulation.max_delay.count());
+  EXPECT_THAT(to_table(emulation),
+              HasSubstr(std::to_string(emulation.max_delay.count()) + " us at most"));
 }
 
 /// A grating that drifts, as 8-bit codes.

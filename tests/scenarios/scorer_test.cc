@@ -79,10 +79,8 @@ TEST(Scorer, MakesRatesOfSimulatedTime) {
   Scorer s = scorer();
   s.add_events(3000);
   s.add_events(1000);
-  s.add_lost_events(5);
   const Summary got = s.summary(2s, 0.5);
   EXPECT_EQ(got.events, 4000);
-  EXPECT_EQ(got.events_lost, 5);
   EXPECT_DOUBLE_EQ(got.event_rate_hz, 2000);
   EXPECT_DOUBLE_EQ(got.sim_time_s, 2);
   EXPECT_DOUBLE_EQ(got.wall_time_s, 0.5);

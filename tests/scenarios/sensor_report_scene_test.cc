@@ -35,6 +35,10 @@ TEST(SensorReportScene, the_texture_moves_by_a_quarter_of_a_pixel_a_picture) {
   }
 }
 
+TEST(SensorReportScene, the_slowest_texture_has_two_pictures_however_short_it_is) {
+  EXPECT_EQ(MovingPattern(kSize, 5, 10, 0.02, 1).pictures(), 2);  // 25 ms from one to the next
+}
+
 // Standard deviation of 32 random waves seen through a window of 346x130 px: the longer
 // waves do not average out, which shifts both by up to a few percent of a wave's own.
 TEST(SensorReportScene, the_texture_has_the_contrast_that_it_claims) {

@@ -149,6 +149,32 @@ TEST(SensorReport, progress_goes_from_the_start_to_the_end) {
   EXPECT_NEAR(last_s, whole_s, 1e-9);
 }
 
+// At 10 px/s a quarter of a pixel takes 25 ms, a fifth of 0.1 s is 20 ms.
+TEST(SensorReport, the_shortest_report_has_two_pictures_even_of_the_slowest_texture) {
+  SensorReportConfig config = config_of(sim::SensorPreset::dim, 5);
+  config.duration_s = 0.1;
+  config.speed_px_s = 10;
+  const auto within = [](double done_s, double end_s, const std::string&) {
+    EXPECT_LE(done_s, end_s);
+  };
+  const SensorReport report = report_on_sensor(config, within);
+  EXPECT_DOUBLE_EQ(report.columns[0].statistics.duration_s, 0.1);
+  EXPECT_DOUBLE_EQ(report.columns[1].statistics.duration_s, 0.025);
+}
+
+// When one is lost ten wait, and the last of them waits for the others' 1 ms each.
+TEST(SensorReport, a_slow_readout_shows_in_what_is_lost_and_in_the_delay) {
+  SensorReportConfig config = config_of(sim::SensorPreset::dim, 5);
+  config.duration_s = 1;
+  EXPECT_EQ(report_on(config).columns[0].lost_events, 0u);
+  EXPECT_LT(*report_on(config).columns[0].max_delay, 1ms);
+  config.sensor.readout.max_event_rate_hz = 1000;
+  config.sensor.readout.queue_capacity_events = 10;
+  const ReportColumn moving = report_on(config).columns[1];
+  EXPECT_GT(*moving.lost_events, 100u);
+  EXPECT_GE(*moving.max_delay, 9ms);
+}
+
 TEST(SensorReport, what_is_out_of_range_is_refused) {
   const auto refused = [](auto change, const char* name) {
     SensorReportConfig config;
@@ -173,6 +199,7 @@ TEST(SensorReport, a_recording_lasts_from_its_first_event_to_its_last) {
   EXPECT_DOUBLE_EQ(column.statistics.duration_s, 4);
   EXPECT_EQ(column.statistics.all.events, 3u);
   EXPECT_EQ(column.lost_events, std::nullopt);
+  EXPECT_EQ(column.max_delay, std::nullopt);
 }
 
 TEST(SensorReport, a_recording_without_events_or_time_is_refused) {

@@ -28,6 +28,10 @@ Summary some_run() {
   s.landing = {1000, 800};
   s.events = 12'000'000;
   s.event_rate_hz = 300'000;
+  s.max_readout_delay_us = 950;
+  s.bad_radiance = 3;
+  s.renders = 16000;
+  s.renders_late = 7;
   s.landed = true;
   s.touchdown_error_m = 0.0625;
   s.relative_position_rmse_m = 0.03125;
@@ -49,6 +53,7 @@ TEST(SummaryJson, HoldsEveryFigureUnderItsName) {
                "turning": {"pictures": 2000, "detections": 1300},
                "landing": {"pictures": 1000, "detections": 800}},
     "events": 12000000, "events_lost": 0, "event_rate_hz": 300000.0,
+    "max_readout_delay_us": 950, "bad_radiance": 3, "renders": 16000, "renders_late": 7,
     "landed": true, "crashed": false, "ugv_collided": false,
     "touchdown_error_m": 0.0625, "relative_position_rmse_m": 0.03125,
     "transitions": [{"time_s": 1.5, "from": "search", "to": "track", "cause": "tag \"0\" seen"}],
@@ -71,8 +76,8 @@ TEST(SummaryTable, ShowsTheFiguresAndWhatWasMissed) {
   for (const char* text :
        {"tracking_landing, seed 18446744073709551615", "3000 of 4000 pictures (75.0 %), 2 false",
         "1300 of 2000 pictures", "40.0 s in 80.0 s (0.50 x real time)",
-        "12000000 (300 k/s), 0 lost", "0.062 m", "1.50 s  search -> track: tag \"0\" seen",
-        "false_detections = 2, wanted at most 0"})
+        "12000000 (300 k/s), 0 lost, read out after 950 us at most", "0.062 m",
+        "1.50 s  search -> track: tag \"0\" seen", "false_detections = 2, wanted at most 0"})
     EXPECT_THAT(table, HasSubstr(text));
   EXPECT_THAT(table, Not(HasSubstr("crashed")));
 }

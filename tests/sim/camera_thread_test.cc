@@ -60,6 +60,18 @@ TEST(CameraThread, what_the_camera_throws_comes_out_of_take) {
   EXPECT_THROW(thread.take(), std::invalid_argument);
 }
 
+TEST(CameraThread, packets_complete_before_the_error_come_out_first) {
+  SimulatedCamera camera = make_camera();
+  CameraThread thread(camera);
+  for (const core::Time t : {1ms, 2ms, 2ms}) {
+    draw(0, thread.next());
+    thread.expose(t, t == 1ms);
+  }
+  thread.next();  // returns once the first picture, at least, is exposed
+  EXPECT_EQ(thread.take().packet.end, 1ms);
+  EXPECT_THROW(thread.take(), std::invalid_argument);
+}
+
 TEST(CameraThread, may_go_with_pictures_still_to_be_exposed) {
   SimulatedCamera camera = make_camera();
   CameraThread thread(camera);

@@ -87,18 +87,19 @@ TEST(Courses, are_set_up_as_one_by_one) {
     starts.leak_per_s[i] = 0.02f;
     starts.lag[i] = uniform() - 0.5f;
     starts.residual[i] = 0.2f * uniform();
-    starts.mean_intensity[i] = 255 * uniform();
   }
-  for (const double rate_per_intensity : {0.0, 0.7, 300.0})
+  for (const float rate : {0.0f, 0.2f, 100.0f}) {
+    for (std::uint32_t i = 0; i < starts.count; ++i) starts.rate[i] = rate * uniform();
     for (const CourseVariant& variant : course_variants()) {
-      variant.set_up(starts, rate_per_intensity, 2e-3);
+      variant.set_up(starts, 2e-3);
       for (std::uint32_t i = 0; i < starts.count; ++i) {
-        const auto one = ResidualCourse::over_step(
-            starts.change[i], starts.leak_per_s[i] * 2e-3, starts.lag[i], starts.residual[i],
-            rate_per_intensity * (starts.mean_intensity[i] + 20.0) * 2e-3);
+        const auto one =
+            ResidualCourse::over_step(starts.change[i], starts.leak_per_s[i] * 2e-3, starts.lag[i],
+                                      starts.residual[i], starts.rate[i]);
         EXPECT_EQ(std::memcmp(&one, &starts.course[i], sizeof(one)), 0) << variant.name << i;
       }
     }
+  }
 }
 
 TEST(Crossings, are_found_to_the_tolerance) {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "core/random.h"
+
 namespace nightjar::sim {
 namespace {
 
@@ -44,6 +46,23 @@ TEST(Leak, draws_of_a_pixel_do_not_depend_on_those_of_others) {
     EXPECT_EQ(alone.next_per_s(7), among.next_per_s(7));
   }
   EXPECT_NE(alone.next_per_s(7), among.next_per_s(2));
+}
+
+TEST(Leak, draws_spread_and_jitter_from_streams_of_their_own) {
+  PixelConfig config;
+  config.leak_rate_hz = 3;
+  const std::vector<float> thresholds_log(10, 0.2f);
+  Leak leak(config, thresholds_log, 12);
+  core::Random spread = core::random_stream(12, "leak_spread");
+  const std::uint64_t jitter = core::random_stream(12, "leak_jitter")();
+  ASSERT_NE(core::random_stream(12, "leak_spread")(), jitter);
+  for (std::uint32_t p = 0; p < 10; ++p) {
+    const double mean = 0.6 * std::pow(10, config.leak_spread_decades * core::normal(spread));
+    EXPECT_FLOAT_EQ(leak.mean_per_s(p), static_cast<float>(mean));
+    const double deviation = leak_deviation(jitter, p, 0);
+    EXPECT_FLOAT_EQ(leak.next_per_s(p),
+                    static_cast<float>(mean / (1 + config.leak_jitter * deviation)));
+  }
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "tests/support/scratch_folder.h"
+#include "tests/support/sim_scene.h"
 
 namespace nightjar::sim {
 namespace {
@@ -116,6 +117,23 @@ TEST_F(RendererTest, LightsThatWouldBeCutOffAreRefused) {
     EXPECT_NE(std::string(e.what()).find("add up to 2.05, allowed 0 to 2"), std::string::npos)
         << e.what();
   }
+}
+
+TEST_F(RendererTest, OneGoesWithoutHarmToAnother) {
+  const int camera = scene_.id(mjOBJ_CAMERA, "down");
+  Scene arena(test::arena());
+  Renderer renderer(arena, kSize, 1);
+  core::Image<float> before, after;
+  const int dvs = arena.id(mjOBJ_CAMERA, "dvs");
+  renderer.draw(arena, dvs, kWhite_lux, before);
+  {
+    core::Image<float> other_picture;
+    Renderer other(scene_, kSize, 1);
+    other.draw(scene_, camera, kWhite_lux, other_picture);
+    renderer.draw(arena, dvs, kWhite_lux, after);  // the current one when the other goes
+  }
+  renderer.draw(arena, dvs, kWhite_lux, after);
+  EXPECT_EQ(before, after);
 }
 
 TEST_F(RendererTest, ACameraThatIsNotThereIsRefusedByItsName) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <future>
 #include <limits>
 #include <map>
 #include <string>
@@ -63,6 +64,38 @@ TEST(Simulation, ApsFramesTakeTheExposureThatTheLightNeeds) {
     for (auto& frame : simulation->advance(hover()).frames) frames.push_back(frame);
   ASSERT_EQ(frames.size(), 1u);  // 0.5 s at 5 lux, by the ESI paper
   EXPECT_EQ(frames[0].exposure_end - frames[0].exposure_begin, 500ms);
+}
+
+TEST(Simulation, TakingBesideTheNextFlightGivesWhatAdvanceGives) {
+  const auto apart = make(3), beside = make(3);
+  beside->fly(hover());
+  for (int i = 0; i < 20; ++i) {
+    std::future<SimulationStep> taken =
+        std::async(std::launch::async, [&] { return beside->take(); });
+    if (i < 19) beside->fly(hover());
+    const SimulationStep expected = apart->advance(hover()), got = taken.get();
+    ASSERT_EQ(got.packet.end, expected.packet.end);
+    ASSERT_EQ(got.packet.events, expected.packet.events);
+    ASSERT_EQ(got.truth.t, expected.truth.t);
+    ASSERT_EQ(got.vehicle.p_world_body_m, expected.vehicle.p_world_body_m);
+    ASSERT_EQ(got.imu.size(), expected.imu.size());
+    ASSERT_EQ(got.frames.size(), expected.frames.size());
+  }
+}
+
+TEST(Simulation, CountsWhatIsDrawnTooLate) {
+  RendererConfig strict;
+  strict.max_motion_px = 0.05;
+  const auto usual = make(1), late = make(1, strict);
+  core::AttitudeSetpoint tilting = hover();
+  tilting.q_world_body = Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY());
+  for (int i = 0; i < 15; ++i) {
+    usual->advance(tilting);
+    late->advance(tilting);
+  }
+  EXPECT_EQ(usual->drawn_late(), 0u);  // 0.5 px in half a millisecond are 1000 px/s
+  EXPECT_GT(late->drawn_late(), 0u);   // here, 100 px/s: 0.1 rad (30 px) in 0.15 s are more
+  EXPECT_LE(late->drawn_late(), late->renders());
 }
 
 TEST(Simulation, ImuSamplesFollowEachOtherEveryMillisecond) {

@@ -13,6 +13,7 @@
 #include "core/random.h"
 #include "sim/noise.h"
 #include "sim/sensor_config.h"
+#include "tests/support/sim_scalar_pixel.h"
 
 namespace nightjar::test {
 
@@ -112,8 +113,10 @@ class ScalarEmulator {
     const double dt_us = end_us - begin_us;
     const double log = log_intensity(intensity);
     const double change = log - p.log;
-    const double rate = 2 * std::numbers::pi * config_.cutoff_hz / 275 *
-                        ((p.intensity + intensity) / 2 + 20) * dt_us * 1e-6;
+    const double rate =
+        2 * std::numbers::pi * config_.cutoff_hz / 275 *
+        (ScalarPixel::mean_intensity(p.intensity, intensity, config_.log_linear_below) + 20) *
+        dt_us * 1e-6;
     const double bend = rate > 0 ? p.lag + change / rate : 0;
     Course course{p.residual - bend, change + p.leak_per_s * dt_us * 1e-6, bend, rate};
 

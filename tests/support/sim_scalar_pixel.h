@@ -27,6 +27,19 @@ class ScalarPixel {
     return std::log(std::max(intensity, 0.01));
   }
 
+  /// Over a step whose log intensity moves linearly.
+  static double mean_intensity(double i0, double i1, double knee) {
+    const double change = log_intensity(i1, knee) - log_intensity(i0, knee);
+    if (std::abs(change) < 1e-6) return (i0 + i1) / 2;
+    if (std::max(i0, i1) <= knee) return (i0 + i1) / 2;
+    if (std::min(i0, i1) >= knee) return (i1 - i0) / change;
+    // To the knee and on from there, each for its share of the step.
+    const double to_knee = std::log(knee) - log_intensity(i0, knee);
+    const double beyond = log_intensity(i1, knee) - std::log(knee);
+    return (mean_intensity(i0, knee, knee) * to_knee + mean_intensity(knee, i1, knee) * beyond) /
+           change;
+  }
+
   void start(double t_us, double luminance_lux) {
     t_us_ = t_us;
     set_input(luminance_lux);
@@ -39,8 +52,9 @@ class ScalarPixel {
     const ScalarPixel begin = *this;
     set_input(luminance_lux);
     const double dt_us = t_us - begin.t_us_;
-    const double rate_hz = 2 * std::numbers::pi * config_.cutoff_hz *
-                           (0.5 * (begin.intensity_ + intensity_) + 20) / 275;
+    const double rate_hz =
+        2 * std::numbers::pi * config_.cutoff_hz *
+        (mean_intensity(begin.intensity_, intensity_, config_.log_linear_below) + 20) / 275;
     const auto output = [&](double after_us) {
       const double change = (log_ - begin.log_) * after_us / dt_us;
       const double a = rate_hz * after_us * 1e-6;

@@ -126,8 +126,8 @@ TEST_F(EmulateCommandTest, reads_exr_and_warns_of_values_that_are_no_intensity) 
   ASSERT_EQ(run("exr --fps 100 --out events.txt --json"), 0) << err;
   EXPECT_EQ(nlohmann::json::parse(out)["bad_values"], 32);
   EXPECT_EQ(err,
-            "nightjar: warning: 32 pixels of the frames were negative (taken as 0), NaN or "
-            "infinite (taken as the pixel's last value)\n");
+            "nightjar: warning: 32 pixels of the frames were negative (taken as 0), NaN, infinite "
+            "or beyond 1e20 (taken as the pixel's last value)\n");
 }
 
 TEST_F(EmulateCommandTest, takes_the_illuminance_where_it_matters_alone) {
@@ -161,9 +161,9 @@ TEST_F(EmulateCommandTest, refuses_options_that_make_no_sense) {
   expect_refused("frames --fps 50 --preset dusk --out events.txt",
                  "--preset = dusk, allowed by_illuminance, clean, bright, dim");
   expect_refused("frames --fps 50 --preset custom --out events.txt", "--preset = custom");
-  for (const std::string size : {"346", "346x", "x260", "346x260x1", "axb", "346X260"})
+  for (const std::string size :
+       {"346", "346x", "x260", "346x260x1", "axb", "346X260", "0x5", "32768x5"})
     expect_refused("frames --fps 50 --out events.txt --size " + size, "--size = " + size);
-  expect_refused("frames --fps 50 --size 0x5 --out events.txt", "size.width_px = 0");
   expect_refused("frames --fps 50 --white 0 --out events.txt", "white = 0");
   expect_refused("frames --fps 50", "--out");
   expect_refused("--fps 50 --out events.txt", "INPUT");
@@ -176,6 +176,13 @@ TEST_F(EmulateCommandTest, refuses_places_where_no_events_can_go) {
   expect_refused("frames --fps 50 --out none/events.txt", "none/events.txt: cannot be written");
   fs::create_directory(folder_ / "folder.txt");
   expect_refused("frames --fps 50 --out folder.txt", "folder.txt: is not a plain file");
+}
+
+TEST_F(EmulateCommandTest, leaves_a_users_own_file_of_the_parts_name_alone) {
+  std::ofstream(folder_ / "events.part.txt") << "mine";
+  ASSERT_EQ(run("frames --fps 50 --out events.txt --quiet"), 0) << err;
+  EXPECT_EQ(test::file_text(folder_ / "events.part.txt"), "mine");
+  EXPECT_FALSE(test::file_text(folder_ / "events.txt").empty());
 }
 
 TEST_F(EmulateCommandTest, explains_itself) {

@@ -44,6 +44,7 @@ class SensorReportCommandTest : public testing::Test {
     EXPECT_NE(err.find(part), std::string::npos) << err;
     EXPECT_EQ(out, "");
     EXPECT_FALSE(fs::exists(folder_ / "report.png"));
+    EXPECT_FALSE(fs::exists(folder_ / "report.part.png"));
   }
 
   test::ScratchFolder folder_;
@@ -95,12 +96,35 @@ TEST_F(SensorReportCommandTest, takes_the_sensor_of_a_scenario) {
 TEST_F(SensorReportCommandTest, draws_a_png) {
   ASSERT_EQ(run(kShort + "--out report.png"), 0) << err;
   EXPECT_EQ(test::file_text(folder_ / "report.png").substr(1, 3), "PNG");
+  EXPECT_FALSE(fs::exists(folder_ / "report.part.png"));
+}
+
+// Files may have 512 * 400 bytes, but for those of a stand-in for gnuplot.
+TEST_F(SensorReportCommandTest, a_disk_that_does_not_take_the_picture_is_no_bad_input) {
+  write("gnuplot", "#!/bin/sh\nulimit -S -f unlimited\nhead -c 1000000 /dev/zero\n");
+  fs::permissions(folder_ / "gnuplot", fs::perms::owner_all);
+  EXPECT_EQ(run(kShort + "--out report.png", "trap '' XFSZ; ulimit -S -f 400; PATH=.:$PATH"), 3);
+  expect_one_line("report.png: cannot be written");
 }
 
 TEST_F(SensorReportCommandTest, an_output_that_cannot_be_is_refused_before_the_work) {
   expect_refused(kShort + "--out none/report.png", "none/report.png");
   expect_refused(kShort + "--out report.jpg", "report.jpg");
   EXPECT_FALSE(fs::exists(folder_ / "report.jpg"));
+  fs::create_directory(folder_ / "folder.png");
+  expect_refused(kShort + "--out folder.png", "folder.png: is not a plain file");
+}
+
+TEST_F(SensorReportCommandTest, the_shortest_and_slowest_report_is_a_report) {
+  ASSERT_EQ(run("--duration 0.1 --speed 10 --size 32x24 --json"), 0) << err;
+  EXPECT_EQ(nlohmann::json::parse(out)["columns"][1]["duration_s"], 0.025);
+}
+
+TEST_F(SensorReportCommandTest, its_help_tells_the_ranges_and_the_exit_codes) {
+  EXPECT_EQ(run("--help"), 0);
+  for (const std::string part : {"0.1 to 60", "10 to 2000", "by_illuminance, clean, bright, dim",
+                                 "Exit codes: 0 done, 2 bad input, 3 "})
+    EXPECT_NE(out.find(part), std::string::npos) << part;
 }
 
 TEST_F(SensorReportCommandTest, a_missing_gnuplot_is_named) {
@@ -128,8 +152,9 @@ TEST_F(SensorReportCommandTest, a_wrong_command_line_is_refused) {
        {"346", "x260", "346x", "346x260x1", "0x10", "-3x4", "99999x9", "''x"})
     expect_refused("--size " + size, "--size");
   expect_refused("--size 8x8", "size.width_px = 8, allowed 16 to 2048");
-  expect_refused("--preset custom", "--preset");
-  expect_refused("--preset bleak", "bleak");
+  expect_refused("--size ''", "--size = ,");
+  expect_refused("--preset custom", "--preset = custom, allowed by_illuminance, clean");
+  expect_refused("--preset bleak", "--preset = bleak, allowed by_illuminance, clean, bright, dim");
   expect_refused("--illuminance 0", "illuminance_lux = 0");
   expect_refused("--illuminance nan", "illuminance");
   expect_refused("--duration -1", "duration_s = -1");
