@@ -12,7 +12,6 @@
 #include <string_view>
 #include <system_error>
 
-#include "camera/side_limit.h"
 #include "core/config_check.h"
 
 namespace nightjar::camera {
@@ -163,9 +162,10 @@ EventRecording read_event_text(const std::filesystem::path& path,
 
 EventRecording read_event_text(std::istream& in, const std::string& name,
                                std::optional<core::Resolution> size) {
-  const core::Resolution limit = size.value_or(core::Resolution{kMostSidePx, kMostSidePx});
-  core::check_range("size.width_px", limit.width_px, 1, kMostSidePx);
-  core::check_range("size.height_px", limit.height_px, 1, kMostSidePx);
+  const core::Resolution limit =
+      size.value_or(core::Resolution{core::kMostSide_px, core::kMostSide_px});
+  core::check_range("size.width_px", limit.width_px, 1, core::kMostSide_px);
+  core::check_range("size.height_px", limit.height_px, 1, core::kMostSide_px);
   EventRecording recording;
   Place place{name};
   for (std::string text; std::getline(in, text);) {
@@ -187,7 +187,8 @@ EventRecording read_event_text(std::istream& in, const std::string& name,
 void EventTextWriter::write(std::span<const core::Event> events) {
   fmt::memory_buffer buffer;
   for (const core::Event& event : events) {
-    if (event.t < last_ || event.t > kMostTime || event.x >= kMostSidePx || event.y >= kMostSidePx)
+    if (event.t < last_ || event.t > kMostTime || event.x >= core::kMostSide_px ||
+        event.y >= core::kMostSide_px)
       throw std::invalid_argument(fmt::format("event at {} us, x = {}, y = {}: cannot follow {} us",
                                               event.t.count(), event.x, event.y, last_.count()));
     last_ = event.t;

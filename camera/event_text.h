@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "camera/part_file.h"
 #include "core/event.h"
+#include "core/part_file.h"
 
 namespace nightjar::camera {
 
@@ -58,7 +58,7 @@ class EventTextWriter {
   void finish() { file_.finish(); }
 
  private:
-  PartFile file_;
+  core::PartFile file_;
   core::Time last_{};
 };
 

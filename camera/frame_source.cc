@@ -6,7 +6,6 @@
 #include <system_error>
 
 #include "camera/picture_folder.h"
-#include "camera/side_limit.h"
 #include "camera/video_file.h"
 #include "core/config_check.h"
 
@@ -19,8 +18,8 @@ constexpr double kMostRateHz = 1e6;    // a microsecond from frame to frame
 void check(const FrameOptions& options) {
   if (options.rate_hz) core::check_range("fps", *options.rate_hz, kLeastRateHz, kMostRateHz);
   if (options.size) {
-    core::check_range("size.width_px", options.size->width_px, 1, kMostSidePx);
-    core::check_range("size.height_px", options.size->height_px, 1, kMostSidePx);
+    core::check_range("size.width_px", options.size->width_px, 1, core::kMostSide_px);
+    core::check_range("size.height_px", options.size->height_px, 1, core::kMostSide_px);
   }
   core::check_range("white", options.float_white, 1e-30, 1e30);
 }

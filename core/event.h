@@ -18,6 +18,9 @@ constexpr Time from_seconds(double s) {
   return Time(static_cast<std::int64_t>(s * 1e6 + (s < 0 ? -0.5 : 0.5)));
 }
 
+/// The most pixels along a side that any part of the project takes.
+inline constexpr int kMostSide_px = 32767;
+
 struct Resolution {
   int width_px = 0;
   int height_px = 0;

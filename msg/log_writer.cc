@@ -6,13 +6,10 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "core/part_file.h"
+
 namespace nightjar::msg {
 namespace {
-
-std::filesystem::path part_of(std::filesystem::path path) {
-  const std::string extension = path.extension().string();
-  return path.replace_extension(".part" + extension);
-}
 
 [[noreturn]] void throw_unwritten(const std::filesystem::path& path) {
   throw std::runtime_error(fmt::format("{}: cannot be written", path.string()));
@@ -23,7 +20,7 @@ std::filesystem::path part_of(std::filesystem::path path) {
 struct LogWriter::Impl {
   explicit Impl(std::filesystem::path log_path)
       : path(std::move(log_path)),
-        part(part_of(path)),
+        part(core::part_name(path)),
         log(std::make_unique<lcm::LogFile>(part.string(), "w")) {}
 
   std::filesystem::path path;

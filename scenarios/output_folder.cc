@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "core/part_file.h"
+
 namespace nightjar::scenarios {
 namespace {
 
@@ -62,11 +64,8 @@ OutputFolder::~OutputFolder() {
 
 std::filesystem::path OutputFolder::path(std::string_view name) const { return folder_ / name; }
 
-// The extension stays at the end, for it tells a video writer which format to use.
 std::filesystem::path OutputFolder::part(std::string_view name) const {
-  std::filesystem::path part = path(name);
-  const std::string extension = part.extension().string();
-  return part.replace_extension(".part" + extension);
+  return core::part_name(path(name));
 }
 
 void OutputFolder::complete(std::string_view name) {

@@ -23,7 +23,6 @@
 namespace nightjar::sim {
 namespace {
 
-constexpr int kMostSidePx = 32767;
 constexpr core::Time kLongestStep = std::chrono::hours(1);
 
 // A white pixel's k dt in one go, so that k changes little while the photoreceptor follows.
@@ -37,8 +36,8 @@ void check(const PixelConfig& config, core::Resolution size, double white_lux) {
     throw std::invalid_argument(
         fmt::format("pixel.log_linear_below = {}, allowed 0, or 2.72 to 128",
                     core::number_text(config.log_linear_below)));
-  core::check_range("size.width_px", size.width_px, 1, kMostSidePx);
-  core::check_range("size.height_px", size.height_px, 1, kMostSidePx);
+  core::check_range("size.width_px", size.width_px, 1, core::kMostSide_px);
+  core::check_range("size.height_px", size.height_px, 1, core::kMostSide_px);
   core::check_range("white_lux", white_lux, 1e-6, 1e9);
 }
 

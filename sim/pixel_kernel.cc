@@ -137,8 +137,29 @@ template <bool kLowPass>
     follow<LowPass::any>(step, count, block, result);
 }
 
+/// The body of intensities_between.
+[[gnu::always_inline]] inline void between_body(const KernelStep& step, const float* before,
+                                                const float* after, float share,
+                                                std::uint32_t count, float* intensity) {
+  const KernelStep s = step;
+  const float knee_log = s.knee * s.linear;
+  const double per_linear = s.linear > 0 ? 1.0 / s.linear : 0.0;
+#pragma GCC ivdep
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const float log_before = log_intensity(before[i], s);
+    const float log = log_before + (log_intensity(after[i], s) - log_before) * share;
+    const double linear = log * per_linear;
+    const bool below = (s.linear > 0) & (log <= knee_log);
+    intensity[i] = static_cast<float>(select(below, linear, fast_exp_minus(-log)));
+  }
+}
+
 bool usable_plain(const float* luminance_lux, std::uint32_t count) {
   return all_usable(luminance_lux, count);
+}
+void between_plain(const KernelStep& step, const float* before, const float* after, float share,
+                   std::uint32_t count, float* intensity) {
+  between_body(step, before, after, share, count, intensity);
 }
 template <bool kLowPass>
 void advance_plain(const KernelStep& step, const float* luminance_lux, std::uint32_t count,
@@ -150,6 +171,11 @@ void advance_plain(const KernelStep& step, const float* luminance_lux, std::uint
 [[gnu::target("avx2")]] bool usable_avx2(const float* luminance_lux, std::uint32_t count) {
   return all_usable(luminance_lux, count);
 }
+[[gnu::target("avx2")]] void between_avx2(const KernelStep& step, const float* before,
+                                          const float* after, float share, std::uint32_t count,
+                                          float* intensity) {
+  between_body(step, before, after, share, count, intensity);
+}
 template <bool kLowPass>
 [[gnu::target("avx2")]] void advance_avx2(const KernelStep& step, const float* luminance_lux,
                                           std::uint32_t count, PixelBlock& block,
@@ -160,6 +186,11 @@ template <bool kLowPass>
 [[gnu::target("avx512f,avx512bw,avx512dq,avx512vl")]] bool usable_avx512(const float* luminance_lux,
                                                                          std::uint32_t count) {
   return all_usable(luminance_lux, count);
+}
+[[gnu::target("avx512f,avx512bw,avx512dq,avx512vl")]] void between_avx512(
+    const KernelStep& step, const float* before, const float* after, float share,
+    std::uint32_t count, float* intensity) {
+  between_body(step, before, after, share, count, intensity);
 }
 template <bool kLowPass>
 [[gnu::target("avx512f,avx512bw,avx512dq,avx512vl")]] void advance_avx512(
@@ -185,12 +216,14 @@ void advance_usable(const KernelStep& step, const float* luminance_lux, std::uin
 
 std::vector<KernelVariant> kernel_variants() {
   std::vector<KernelVariant> variants{
-      {"plain", usable_plain, advance_plain<true>, advance_plain<false>}};
+      {"plain", usable_plain, advance_plain<true>, advance_plain<false>, between_plain}};
 #if defined(__x86_64__)
   if (instruction_sets().avx2)
-    variants.push_back({"avx2", usable_avx2, advance_avx2<true>, advance_avx2<false>});
+    variants.push_back(
+        {"avx2", usable_avx2, advance_avx2<true>, advance_avx2<false>, between_avx2});
   if (instruction_sets().avx512)
-    variants.push_back({"avx512", usable_avx512, advance_avx512<true>, advance_avx512<false>});
+    variants.push_back(
+        {"avx512", usable_avx512, advance_avx512<true>, advance_avx512<false>, between_avx512});
 #endif
   return variants;
 }
@@ -224,17 +257,7 @@ void advance_clean_pixels(const KernelStep& step, const float* intensity, std::u
 
 void intensities_between(const KernelStep& step, const float* before, const float* after,
                          float share, std::uint32_t count, float* intensity) {
-  const KernelStep s = step;
-  const float knee_log = s.knee * s.linear;
-  const double per_linear = s.linear > 0 ? 1.0 / s.linear : 0.0;
-#pragma GCC ivdep
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const float log_before = log_intensity(before[i], s);
-    const float log = log_before + (log_intensity(after[i], s) - log_before) * share;
-    const double linear = log * per_linear;
-    const bool below = (s.linear > 0) & (log <= knee_log);
-    intensity[i] = static_cast<float>(select(below, linear, fast_exp_minus(-log)));
-  }
+  best().between(step, before, after, share, count, intensity);
 }
 
 double rate_per_intensity(const PixelConfig& config) {

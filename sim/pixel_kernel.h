@@ -85,7 +85,7 @@ void advance_clean_pixels(const KernelStep& step, const float* intensity, std::u
 void intensities_between(const KernelStep& step, const float* before, const float* after,
                          float share, std::uint32_t count, float* intensity);
 
-/// The heart of advance_pixels for one instruction set.
+/// The heart of advance_pixels and intensities_between for one instruction set.
 struct KernelVariant {
   /// Every input has to be usable.
   using Advance = void (*)(const KernelStep&, const float* luminance_lux, std::uint32_t count,
@@ -95,6 +95,8 @@ struct KernelVariant {
   bool (*usable)(const float* luminance_lux, std::uint32_t count);
   Advance with_low_pass;
   Advance without_low_pass;
+  void (*between)(const KernelStep&, const float* before, const float* after, float share,
+                  std::uint32_t count, float* intensity);
 };
 
 /// Those this processor can run, slowest first; advance_pixels takes the last

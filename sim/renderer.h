@@ -14,6 +14,9 @@ using Rgb = std::array<std::uint8_t, 3>;
 
 /// Draws a scene off-screen with MuJoCo on OSMesa: shaded and filtered in float, kept
 /// with 16 bits a channel (docs/decisions/0002).
+///
+/// Mesa reads its settings from the environment before the first context of a process:
+/// the first Renderer sets GALLIVM_PERF, and LP_NUM_THREADS where it is not set.
 class Renderer {
  public:
   /// The geom group that the sensor is shown.

@@ -7,8 +7,6 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "camera/side_limit.h"
-
 namespace nightjar::tools {
 namespace {
 
@@ -17,7 +15,7 @@ std::optional<int> parse_side(std::string_view text) {
   const char* end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, side_px);
   if (error != std::errc() || rest != end) return std::nullopt;
-  return side_px >= 1 && side_px <= camera::kMostSidePx ? std::optional(side_px) : std::nullopt;
+  return side_px >= 1 && side_px <= core::kMostSide_px ? std::optional(side_px) : std::nullopt;
 }
 
 }  // namespace
@@ -30,7 +28,7 @@ core::Resolution parse_size(const std::string& text) {
   }
   throw std::invalid_argument(
       fmt::format("--size = {}, expected WIDTHxHEIGHT as in 346x260, allowed 1 to {} each", text,
-                  camera::kMostSidePx));
+                  core::kMostSide_px));
 }
 
 sim::SensorPreset parse_preset(const std::string& name) {

@@ -13,7 +13,7 @@
 #include <string>
 
 #include "camera/event_text.h"
-#include "camera/part_file.h"
+#include "core/part_file.h"
 #include "scenarios/gnuplot.h"
 #include "scenarios/scenario.h"
 #include "scenarios/sensor_report.h"
@@ -112,12 +112,12 @@ std::optional<core::Resolution> recorded_size(const Arguments& arguments) {
 }
 
 /// Fails before the work, not after it.
-std::unique_ptr<camera::PartFile> open_picture(const std::string& out) {
+std::unique_ptr<core::PartFile> open_picture(const std::string& out) {
   if (out.empty()) return nullptr;
   if (fs::path(out).extension() != ".png")
     throw std::invalid_argument(fmt::format("--out = {}, allowed a name ending in .png", out));
   scenarios::run_gnuplot("");
-  return std::make_unique<camera::PartFile>(out);
+  return std::make_unique<core::PartFile>(out);
 }
 
 void run(const Arguments& arguments) {
@@ -129,7 +129,7 @@ void run(const Arguments& arguments) {
         camera::read_event_text(arguments.recording, recorded_size(arguments)));
 
   note_interrupts();  // before there is anything to leave behind
-  const std::unique_ptr<camera::PartFile> picture = open_picture(arguments.out);
+  const std::unique_ptr<core::PartFile> picture = open_picture(arguments.out);
   std::optional<ProgressBar> progress;
   if (isatty(STDERR_FILENO) != 0) progress.emplace(std::cerr, true);
   scenarios::SensorReport report = scenarios::report_on_sensor(

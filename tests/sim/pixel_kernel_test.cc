@@ -217,6 +217,20 @@ TEST(PixelKernel, every_instruction_set_gives_the_same_bits) {
   }
 }
 
+TEST(PixelKernel, intensities_between_have_the_same_bits_on_every_instruction_set) {
+  const KernelStep step = kernel_step(quiet(), 5.0);
+  const Pixels from(3), to(4);
+  const auto run = [&](const KernelVariant& variant) {
+    std::vector<float> between(kCount);
+    variant.between(step, from.luminance_lux.data(), to.luminance_lux.data(), 0.3f, kCount,
+                    between.data());
+    return between;
+  };
+  const auto variants = kernel_variants();
+  for (const KernelVariant& variant : variants)
+    EXPECT_EQ(run(variant), run(variants.front())) << variant.name;
+}
+
 TEST(PixelKernel, every_instruction_set_sees_what_has_to_be_corrected) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   for (const KernelVariant& variant : kernel_variants())

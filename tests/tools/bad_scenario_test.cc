@@ -1,13 +1,11 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <string>
 
-#include "tests/support/scratch_folder.h"
+#include "tests/support/program.h"
 
 namespace nightjar::tools {
 namespace {
@@ -15,29 +13,18 @@ namespace {
 namespace fs = std::filesystem;
 
 // Runs the built program in a folder of its own, without a person to ask.
-class BadScenarioTest : public testing::Test {
+class BadScenarioTest : public test::ProgramTest {
  protected:
   BadScenarioTest() { std::ofstream(folder_ / "arena.xml") << "<mujoco/>"; }
 
   void write(const std::string& text) const { std::ofstream(folder_ / "dark.yaml") << text; }
 
-  // The exit code; what it said goes to `out` and `err`.
-  int run(const std::string& arguments) {
-    const std::string command = "cd '" + folder_.path().string() + "' && '" NIGHTJAR_PROGRAM "' " +
-                                arguments + " >out.txt 2>err.txt </dev/null";
-    const int status = std::system(command.c_str());
-    out = test::file_text(folder_ / "out.txt");
-    err = test::file_text(folder_ / "err.txt");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
+  int run(const std::string& arguments) { return run_program(arguments); }
 
   // Bad input: exit 2, one line that holds `part`, and no result.
   void expect_refused(const std::string& arguments, const std::string& part) {
     EXPECT_EQ(run(arguments), 2) << err;
-    EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
-    EXPECT_TRUE(err.starts_with("nightjar: ") && err.ends_with("\n")) << err;
-    EXPECT_NE(err.find(part), std::string::npos) << err;
-    EXPECT_EQ(out, "");
+    expect_one_line(part);
     EXPECT_FALSE(fs::exists(folder_ / "results/summary.json"));
   }
 
@@ -45,10 +32,6 @@ class BadScenarioTest : public testing::Test {
     write(text);
     expect_refused("run dark.yaml --out results", part);
   }
-
-  test::ScratchFolder folder_;
-  std::string out;
-  std::string err;
 };
 
 TEST_F(BadScenarioTest, AnUnknownKeyIsRefused) {

@@ -1,21 +1,15 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
-#include <thread>
 
-#include "tests/support/scratch_folder.h"
+#include "tests/support/program.h"
 
 namespace nightjar::tools {
 namespace {
@@ -31,7 +25,7 @@ void write_picture(const fs::path& path, int width, int height, int bright_colum
 }
 
 // Runs the built program in a folder of its own that holds ten frames.
-class EmulateCommandTest : public testing::Test {
+class EmulateCommandTest : public test::ProgramTest {
  protected:
   EmulateCommandTest() {
     fs::create_directory(folder_ / "frames");
@@ -39,24 +33,12 @@ class EmulateCommandTest : public testing::Test {
       write_picture(folder_ / fmt::format("frames/{}.pgm", i), 32, 24, 8 + i);
   }
 
-  // The exit code; what it said goes to `out` and `err`.
-  int run(const std::string& arguments) {
-    const std::string command = "cd '" + folder_.path().string() +
-                                "' && '" NIGHTJAR_PROGRAM "' emulate " + arguments +
-                                " >out.log 2>err.log </dev/null";
-    const int status = std::system(command.c_str());
-    out = test::file_text(folder_ / "out.log");
-    err = test::file_text(folder_ / "err.log");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
+  int run(const std::string& arguments) { return run_program("emulate " + arguments); }
 
   // Bad input: exit 2, one line that holds `part`, and no file.
   void expect_refused(const std::string& arguments, const std::string& part) {
     EXPECT_EQ(run(arguments), 2) << arguments << '\n' << err;
-    EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
-    EXPECT_TRUE(err.starts_with("nightjar: ") && err.ends_with("\n")) << err;
-    EXPECT_NE(err.find(part), std::string::npos) << err;
-    EXPECT_EQ(out, "");
+    expect_one_line(part);
     expect_no_events();
   }
 
@@ -64,10 +46,6 @@ class EmulateCommandTest : public testing::Test {
     for (const auto& entry : fs::directory_iterator(folder_.path()))
       EXPECT_FALSE(entry.path().filename().string().starts_with("events")) << entry.path();
   }
-
-  test::ScratchFolder folder_;
-  std::string out;
-  std::string err;
 };
 
 TEST_F(EmulateCommandTest, writes_the_events_of_a_folder_of_pictures) {
@@ -197,22 +175,10 @@ TEST_F(EmulateCommandTest, leaves_nothing_when_it_is_interrupted) {
   fs::create_directory(folder_ / "many");
   for (int i = 0; i < 400; ++i)
     fs::create_symlink(folder_ / "frame.pgm", folder_ / fmt::format("many/{}.pgm", i));
-  const pid_t child = fork();
-  ASSERT_GE(child, 0);
-  if (child == 0) {
-    execl(NIGHTJAR_PROGRAM, "nightjar", "emulate", (folder_ / "many").c_str(), "--fps", "1000",
-          "--out", (folder_ / "events.txt").c_str(), "--quiet", nullptr);
-    _exit(127);
-  }
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  while (!fs::exists(folder_ / "events.part.txt") && std::chrono::steady_clock::now() < deadline)
-    std::this_thread::sleep_for(std::chrono::milliseconds(10));
-  EXPECT_TRUE(fs::exists(folder_ / "events.part.txt"));
-  kill(child, SIGINT);
-  int status = 0;
-  ASSERT_EQ(waitpid(child, &status, 0), child);
-  EXPECT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 130);
+  EXPECT_EQ(test::interrupt_when_there_is(folder_ / "events.part.txt",
+                                          {"emulate", (folder_ / "many").string(), "--fps", "1000",
+                                           "--out", (folder_ / "events.txt").string(), "--quiet"}),
+            130);
   expect_no_events();
 }
 

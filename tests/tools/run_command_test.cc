@@ -1,14 +1,12 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "tests/support/scratch_folder.h"
+#include "tests/support/program.h"
 
 namespace nightjar::tools {
 namespace {
@@ -17,7 +15,7 @@ namespace fs = std::filesystem;
 
 // Runs the built program on a flight of a fifth of a second, which ends before it lands
 // and so with 1.
-class RunCommandTest : public testing::Test {
+class RunCommandTest : public test::ProgramTest {
  protected:
   RunCommandTest() {
     std::ofstream(folder_ / "short.yaml")
@@ -27,25 +25,15 @@ class RunCommandTest : public testing::Test {
         << "      - {x_m: 3.0, y_m: -3.0, speed_m_s: 0.3, phase: landing}\n";
   }
 
-  // The exit code; what it said goes to `out` and `err`.
   int run(const std::string& arguments, const std::string& environment = "") {
-    const std::string command = "cd '" + folder_.path().string() + "' && " + environment +
-                                " '" NIGHTJAR_PROGRAM "' run " + arguments +
-                                " >out.txt 2>err.txt </dev/null";
-    const int status = std::system(command.c_str());
-    out = test::file_text(folder_ / "out.txt");
-    err = test::file_text(folder_ / "err.txt");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return run_program("run " + arguments, environment);
   }
 
   static bool holds(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
   }
 
-  test::ScratchFolder folder_;
   const std::string kShort = "short.yaml --out results --no-video ";
-  std::string out;
-  std::string err;
 };
 
 TEST_F(RunCommandTest, another_driver_of_mesas_is_refused_in_one_line) {

@@ -1,56 +1,41 @@
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "tests/support/scratch_folder.h"
+#include "tests/support/program.h"
 
 namespace nightjar::tools {
 namespace {
 
 namespace fs = std::filesystem;
 
-class SensorReportCommandTest : public testing::Test {
+class SensorReportCommandTest : public test::ProgramTest {
  protected:
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
   }
 
-  // The exit code; what it said goes to `out` and `err`.
   int run(const std::string& arguments, const std::string& environment = "") {
-    const std::string command = "cd '" + folder_.path().string() + "' && " + environment +
-                                " '" NIGHTJAR_PROGRAM "' sensor-report " + arguments +
-                                " >out.txt 2>err.txt </dev/null";
-    const int status = std::system(command.c_str());
-    out = test::file_text(folder_ / "out.txt");
-    err = test::file_text(folder_ / "err.txt");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return run_program("sensor-report " + arguments, environment);
   }
 
   // One line that holds `part`, no result, no file left behind.
   void expect_refused(const std::string& arguments, const std::string& part) {
     EXPECT_EQ(run(arguments), 2) << err;
-    expect_one_line(part);
+    expect_only_a_line(part);
   }
 
-  void expect_one_line(const std::string& part) const {
-    EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
-    EXPECT_TRUE(err.starts_with("nightjar: ")) << err;
-    EXPECT_NE(err.find(part), std::string::npos) << err;
-    EXPECT_EQ(out, "");
+  void expect_only_a_line(const std::string& part) const {
+    expect_one_line(part);
     EXPECT_FALSE(fs::exists(folder_ / "report.png"));
     EXPECT_FALSE(fs::exists(folder_ / "report.part.png"));
   }
 
-  test::ScratchFolder folder_;
   const std::string kShort = " --duration 0.2 --size 32x24 ";
-  std::string out;
-  std::string err;
 };
 
 TEST_F(SensorReportCommandTest, prints_a_table_with_a_column_for_the_recording) {
@@ -104,7 +89,7 @@ TEST_F(SensorReportCommandTest, a_disk_that_does_not_take_the_picture_is_no_bad_
   write("gnuplot", "#!/bin/sh\nulimit -S -f unlimited\nhead -c 1000000 /dev/zero\n");
   fs::permissions(folder_ / "gnuplot", fs::perms::owner_all);
   EXPECT_EQ(run(kShort + "--out report.png", "trap '' XFSZ; ulimit -S -f 400; PATH=.:$PATH"), 3);
-  expect_one_line("report.png: cannot be written");
+  expect_only_a_line("report.png: cannot be written");
 }
 
 TEST_F(SensorReportCommandTest, an_output_that_cannot_be_is_refused_before_the_work) {
@@ -129,7 +114,7 @@ TEST_F(SensorReportCommandTest, its_help_tells_the_ranges_and_the_exit_codes) {
 
 TEST_F(SensorReportCommandTest, a_missing_gnuplot_is_named) {
   EXPECT_EQ(run(kShort + "--out report.png", "PATH=/none"), 3);
-  expect_one_line("gnuplot");
+  expect_only_a_line("gnuplot");
 }
 
 TEST_F(SensorReportCommandTest, bad_recordings_are_refused) {

@@ -4,7 +4,11 @@
 #include <fstream>
 #include <ostream>
 
-namespace nightjar::camera {
+namespace nightjar::core {
+
+/// What a file is called until it is complete: NAME.part.EXT. The extension stays at the
+/// end, for it tells some writers which format to use.
+std::filesystem::path part_name(std::filesystem::path path);
 
 /// A file that has its name only once it is complete. Until then it is called
 /// NAME.part.EXT, or NAME.part2.EXT and so on where there is such a file already: what
@@ -36,4 +40,4 @@ class PartFile {
   std::ofstream out_;
 };
 
-}  // namespace nightjar::camera
+}  // namespace nightjar::core

@@ -1,4 +1,4 @@
-#include "camera/part_file.h"
+#include "core/part_file.h"
 
 #include <fmt/format.h>
 
@@ -9,15 +9,16 @@
 #include <system_error>
 #include <utility>
 
-namespace nightjar::camera {
+namespace nightjar::core {
 namespace {
 
 /// Creates an empty file beside `path`, under a name that was free.
 std::filesystem::path create_part(const std::filesystem::path& path) {
   for (int i = 1;; ++i) {
-    std::filesystem::path part = path;
-    part.replace_extension((i == 1 ? ".part" : fmt::format(".part{}", i)) +
-                           path.extension().string());
+    std::filesystem::path part = part_name(path);
+    if (i > 1)
+      part = path.parent_path() /
+             fmt::format("{}.part{}{}", path.stem().string(), i, path.extension().string());
     // "x": fails where the file exists, whoever else creates it at the same moment.
     if (std::FILE* file = std::fopen(part.c_str(), "wbx")) {
       std::fclose(file);
@@ -30,6 +31,11 @@ std::filesystem::path create_part(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+std::filesystem::path part_name(std::filesystem::path path) {
+  const std::string extension = path.extension().string();
+  return path.replace_extension(".part" + extension);
+}
 
 PartFile::PartFile(std::filesystem::path path) : path_(std::move(path)) {
   std::error_code ignored;
@@ -61,4 +67,4 @@ void PartFile::finish() {
   part_.clear();
 }
 
-}  // namespace nightjar::camera
+}  // namespace nightjar::core

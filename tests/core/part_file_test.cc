@@ -1,4 +1,4 @@
-#include "camera/part_file.h"
+#include "core/part_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 
 #include "tests/support/scratch_folder.h"
 
-namespace nightjar::camera {
+namespace nightjar::core {
 namespace {
 
 using test::file_text;
@@ -69,4 +69,4 @@ TEST(PartFileTest, tells_when_it_cannot_get_its_name) {
 }
 
 }  // namespace
-}  // namespace nightjar::camera
+}  // namespace nightjar::core
