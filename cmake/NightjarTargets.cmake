@@ -13,15 +13,22 @@ endif()
 # for themselves: results are the same on one kind of machine.
 target_compile_options(nightjar_options INTERFACE -ffp-contract=off)
 
-# nightjar_library(NAME [PUBLIC libs...] [PRIVATE libs...]): every .cc of the
-# folder NAME as one static library.
+# nightjar_library(NAME [SOURCES files...] [EXCEPT files...] [PUBLIC libs...]
+# [PRIVATE libs...]): SOURCES, or else every .cc of the folder NAME but for EXCEPT, as one
+# static library.
 function(nightjar_library name)
-  cmake_parse_arguments(arg "" "" "PUBLIC;PRIVATE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${name}/*.cc)
-  add_library(nightjar_${name} STATIC ${sources})
-  target_include_directories(nightjar_${name} PUBLIC ${CMAKE_SOURCE_DIR})
+  cmake_parse_arguments(arg "" "" "SOURCES;EXCEPT;PUBLIC;PRIVATE" ${ARGN})
+  if(NOT arg_SOURCES)
+    file(GLOB arg_SOURCES CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${name}/*.cc)
+    foreach(file ${arg_EXCEPT})
+      list(REMOVE_ITEM arg_SOURCES ${CMAKE_SOURCE_DIR}/${file})
+    endforeach()
+  endif()
+  add_library(nightjar_${name} STATIC ${arg_SOURCES})
+  target_include_directories(nightjar_${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>
+                                                     $<INSTALL_INTERFACE:include/nightjar>)
   target_link_libraries(nightjar_${name} PUBLIC ${arg_PUBLIC}
-                        PRIVATE nightjar_options ${arg_PRIVATE})
+                        PRIVATE $<BUILD_INTERFACE:nightjar_options> ${arg_PRIVATE})
 endfunction()
 
 # nightjar_lcm_types(NAME FOLDER): C++ classes made by lcm-gen from FOLDER/*.lcm,
@@ -41,5 +48,26 @@ function(nightjar_lcm_types name folder)
   add_custom_target(nightjar_${name}_gen DEPENDS ${headers})
   add_library(nightjar_${name} INTERFACE)
   target_include_directories(nightjar_${name} SYSTEM INTERFACE ${out})
+  add_dependencies(nightjar_${name} nightjar_${name}_gen)
+endfunction()
+
+# nightjar_flatbuffers(NAME FOLDER): C++ classes made by flatc from FOLDER/*.fbs,
+# included as "nightjar_flatbuffers/<schema>_generated.h".
+function(nightjar_flatbuffers name folder)
+  file(GLOB schemas CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.fbs)
+  set(out ${CMAKE_BINARY_DIR}/flatbuffers)
+  set(headers)
+  foreach(schema ${schemas})
+    get_filename_component(stem ${schema} NAME_WE)
+    set(header ${out}/nightjar_flatbuffers/${stem}_generated.h)
+    add_custom_command(OUTPUT ${header}
+      COMMAND ${FLATC} --cpp -o ${out}/nightjar_flatbuffers ${schema}
+      DEPENDS ${schema} VERBATIM)
+    list(APPEND headers ${header})
+  endforeach()
+  add_custom_target(nightjar_${name}_gen DEPENDS ${headers})
+  add_library(nightjar_${name} INTERFACE)
+  target_include_directories(nightjar_${name} SYSTEM INTERFACE ${out})
+  target_link_libraries(nightjar_${name} INTERFACE Flatbuffers::flatbuffers)
   add_dependencies(nightjar_${name} nightjar_${name}_gen)
 endfunction()

@@ -1,27 +1,53 @@
 #pragma once
 
-#include "core/config_check.h"
+#include "esi/accumulator_config.h"
+#include "esi/complementary_filter_config.h"
+#include "esi/double_integral_config.h"
+#include "esi/esi_config.h"
+#include "esi/esi_net_config.h"
+#include "esi/htac_config.h"
+#include "esi/network_config.h"
 
 namespace nightjar::esi {
 
-/// Event-based single integration (ESI paper, section III). The paper gives no
-/// values. On seeds 201 and 202 of a shortened tracking_landing scenario the share of
-/// pictures with the tag changed by less than two points between C = 0.15 and 0.3 and
-/// between k = 1 and 2: these values lie on that plateau.
-struct EsiConfig {
-  double contrast_log = 0.2;   ///< C: step per event, natural log units.
-  double decay_rate_hz = 1.0;  ///< k: an event 1/k after its predecessor wipes the pixel.
-  double decay_power = 1.0;    ///< b.
-  double least_log = -1.0;     ///< Smin, black.
-  double greatest_log = 1.0;   ///< Smax, white.
+enum class Method { esi, accumulator, complementary_filter, edi, fedi, htac, firenet, e2vid, esi_net };
+
+inline constexpr core::Choices<Method, 9> kMethods{
+    {{"esi", Method::esi},
+     {"accumulator", Method::accumulator},
+     {"complementary_filter", Method::complementary_filter},
+     {"edi", Method::edi},
+     {"fedi", Method::fedi},
+     {"htac", Method::htac},
+     {"firenet", Method::firenet},
+     {"e2vid", Method::e2vid},
+     {"esi_net", Method::esi_net}}};
+
+/// Which method makes the pictures, and what each would do.
+struct ReconstructorConfig {
+  Method method = Method::esi;
+  EsiConfig esi;
+  AccumulatorConfig accumulator;
+  ComplementaryFilterConfig complementary_filter;
+  DoubleIntegralConfig edi;
+  DoubleIntegralConfig fedi;
+  HtacConfig htac;
+  NetworkConfig firenet;
+  NetworkConfig e2vid;
+  EsiNetConfig esi_net;
 
   template <class Visitor>
   void visit(Visitor& v) {
-    v.field("contrast_log", contrast_log, 0.001, 2.0);
-    v.field("decay_rate_hz", decay_rate_hz, 0.0, 1000.0);
-    v.field("decay_power", decay_power, 0.01, 20.0);
-    v.field("least_log", least_log, -100.0, 0.0);
-    v.field("greatest_log", greatest_log, 0.001, 100.0);
+    v.choice("method", method, kMethods);
+    v.section("esi", esi);
+    v.section("accumulator", accumulator);
+    v.section("complementary_filter", complementary_filter);
+    v.section("edi", edi);
+    v.section("fedi", fedi);
+    v.section("htac", htac);
+    v.section("firenet", firenet);
+    v.section("e2vid", e2vid);
+    v.section("esi_net", esi_net);
   }
 };
 

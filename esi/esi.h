@@ -2,37 +2,34 @@
 
 #include <vector>
 
-#include "esi/config.h"
+#include "esi/esi_config.h"
+#include "esi/leaky_sum.h"
 #include "esi/reconstructor.h"
 
 namespace nightjar::esi {
 
-/// Event-based single integration, the ESI paper's Algorithm 2 to the letter: each
-/// event is added, then the sum decays by the time since the pixel's last event, then
-/// it is clamped. Nothing decays between a pixel's last event and the picture.
+/// Event-based single integration, the ESI paper's Algorithm 2: each event is added,
+/// then the sum decays by the time since the pixel's last event, then it is clamped.
+/// Nothing decays between a pixel's last event and the picture. Options of EsiConfig
+/// change the order, or let the picture show the decay up to its own time.
+///
+/// In floats and vectors: pictures are within one grey level of the listing in doubles
+/// (esi_reference.h), and the same to the bit on every processor.
 class Esi final : public Reconstructor {
  public:
   /// Throws std::invalid_argument for a config out of range.
   Esi(const EsiConfig& config, core::Resolution size);
 
-  void process(std::span<const core::Event> events) override;
-  void render(core::Time t, core::Picture& picture) override;
-  void reset() override;
-
  private:
-  /// d(t) of eq. 4.
-  float decay(core::Time dt) const;
+  void integrate(std::span<const PackedEvent> events) override;
+  void integrate_run(EventRun& run) override;
+  void draw(core::Time t, core::Image<std::uint8_t>& gray) override;
+  void clear(core::Time start) override;
+  void limit_ages(std::uint32_t now_us, std::uint32_t most_us) override;
 
-  /// A pixel's S and T, side by side since every event touches both.
-  struct Cell {
-    float sum_log = 0;
-    std::int64_t last_us = 0;
-  };
-
-  EsiConfig config_;
-  core::Resolution size_;
-  std::vector<Cell> cells_;
-  core::Time last_{};
+  LeakySum sum_;
+  bool decay_at_picture_;
+  std::vector<SumCell> cells_;
 };
 
 }  // namespace nightjar::esi

@@ -1,6 +1,7 @@
 #include "msg/bus.h"
 
 #include <fmt/format.h>
+#include <poll.h>
 
 #include <algorithm>
 #include <deque>
@@ -21,6 +22,12 @@ void check_channel(const std::string& channel) {
         fmt::format("channel = \"{}\", allowed 1 to 63 letters, digits and underscores", channel));
 }
 
+// A burst of events must find room before LCM's thread gets to read it.
+std::string with_receive_buffer(const std::string& url) {
+  if (!url.starts_with("udpm://") || url.find("recv_buf_size") != std::string::npos) return url;
+  return url + (url.find('?') == std::string::npos ? '?' : '&') + "recv_buf_size=4194304";
+}
+
 }  // namespace
 
 struct Bus::Impl {
@@ -39,7 +46,7 @@ struct Bus::Impl {
     }
   }
 
-  explicit Impl(const std::string& url) : lcm(url) {}
+  explicit Impl(const std::string& url) : lcm(with_receive_buffer(url)) {}
 
   lcm::LCM lcm;
   std::deque<Subscriber> subscribers;  // a deque, for LCM keeps their addresses
@@ -83,6 +90,11 @@ std::size_t Bus::dispatch() {
   } while (status > 0);
   if (status < 0) throw std::runtime_error("LCM failed to handle a message");
   return count;
+}
+
+bool Bus::wait(std::chrono::milliseconds at_most) {
+  pollfd file{.fd = impl_->lcm.getFileno(), .events = POLLIN, .revents = 0};
+  return poll(&file, 1, static_cast<int>(at_most.count())) > 0;
 }
 
 }  // namespace nightjar::msg

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -20,7 +21,9 @@ class Bus {
  public:
   using BytesHandler = std::function<void(std::span<const std::uint8_t>)>;
 
-  /// Throws std::invalid_argument when LCM cannot open `url`.
+  /// Throws std::invalid_argument when LCM cannot open `url`. `udpm://` joins a group of
+  /// processes, which sees what others publish; unless it says recv_buf_size itself it asks
+  /// for a receive buffer of 4 MiB, of which the kernel grants net.core.rmem_max.
   explicit Bus(const std::string& url = "memq://");
   ~Bus();
   Bus(const Bus&) = delete;
@@ -56,6 +59,10 @@ class Bus {
   /// decode() throws comes out here; the messages after it stay queued.
   /// Throws std::logic_error when called from a handler.
   std::size_t dispatch();
+
+  /// Waits until there is something for dispatch() to do, `at_most` so long, or until a
+  /// signal comes; whether there is.
+  bool wait(std::chrono::milliseconds at_most);
 
  private:
   struct Impl;

@@ -5,6 +5,7 @@
 #include "core/imu.h"
 #include "core/state.h"
 #include "core/truth.h"
+#include "msg/step_mark.h"
 #include "msg/tag_detections.h"
 
 namespace nightjar::msg {
@@ -25,5 +26,8 @@ inline constexpr Channel<core::VehicleState> kVehicleState{"NIGHTJAR_VEHICLE_STA
 inline constexpr Channel<core::AttitudeSetpoint> kAttitudeSetpoint{"NIGHTJAR_ATTITUDE_SETPOINT"};
 inline constexpr Channel<core::MissionTransition> kMissionTransition{"NIGHTJAR_MISSION_TRANSITION"};
 inline constexpr Channel<core::Truth> kTruth{"NIGHTJAR_TRUTH"};
+inline constexpr Channel<StepMark> kStep{"NIGHTJAR_STEP"};
+/// Between processes event packets travel in pieces (msg/event_parts.h), here.
+inline constexpr const char* kEventParts = "NIGHTJAR_EVENT_PARTS";
 
 }  // namespace nightjar::msg

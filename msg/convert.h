@@ -9,6 +9,7 @@
 #include "core/imu.h"
 #include "core/state.h"
 #include "core/truth.h"
+#include "msg/step_mark.h"
 #include "msg/tag_detections.h"
 
 namespace nightjar::msg {
@@ -31,6 +32,7 @@ Bytes encode(const core::VehicleState& state);
 Bytes encode(const core::AttitudeSetpoint& setpoint);
 Bytes encode(const core::MissionTransition& transition);
 Bytes encode(const core::Truth& truth);
+Bytes encode(const StepMark& mark);
 
 /// The value in an LCM message. Throws std::invalid_argument when the bytes are
 /// of another type, too few or too many, or break the promise of T.
@@ -57,6 +59,8 @@ template <>
 core::MissionTransition decode(std::span<const std::uint8_t> bytes);
 template <>
 core::Truth decode(std::span<const std::uint8_t> bytes);
+template <>
+StepMark decode(std::span<const std::uint8_t> bytes);
 
 /// The time of any message of ours: time_us is the first field of each type.
 /// Throws std::invalid_argument when there are too few bytes to hold one.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "camera/caer_camera.h"
 #include "core/event.h"
 #include "scenarios/scenario.h"
 #include "sim/aps.h"
@@ -39,6 +40,17 @@ void check_pixel(const sim::SensorConfig& sensor) {
                                     number_text(knee)));
 }
 
+// A real camera has its own size, whatever the scenario makes of it.
+void check_size(const sim::CameraConfig& camera, nightjar::camera::SourceType source) {
+  constexpr core::Resolution kReal = nightjar::camera::CaerCamera::kSize;
+  if (source != nightjar::camera::SourceType::caer ||
+      (camera.width_px == kReal.width_px && camera.height_px == kReal.height_px))
+    return;
+  throw ScenarioError(fmt::format(
+      "camera.width_px = {}, camera.height_px = {}, allowed {} and {} with source.type = caer",
+      camera.width_px, camera.height_px, kReal.width_px, kReal.height_px));
+}
+
 }  // namespace
 
 void check_consistency(const Scenario& scenario) {
@@ -46,6 +58,7 @@ void check_consistency(const Scenario& scenario) {
   check_frames(scenario.sensor.aps, scenario.illuminance_lux,
                scenario.world.renderer.max_interval_ms);
   check_pixel(scenario.sensor);
+  check_size(scenario.camera, scenario.source.type);
 }
 
 }  // namespace nightjar::scenarios

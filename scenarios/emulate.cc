@@ -81,6 +81,7 @@ Emulation emulate(camera::FrameSource& frames, const EmulateOptions& options,
   EventSensor sensor(options, intensity.size());
   Emulation result;
   result.size = intensity.size();
+  if (options.on_start) options.on_start(result.size);
   result.rate_hz = frames.rate_hz();
   result.announced_frames = frames.announced_frames();
   const double end_s = time_s(std::max(0, result.announced_frames - 1), result.rate_hz);

@@ -15,6 +15,8 @@ struct EmulateOptions {
   sim::SensorConfig sensor;
   double illuminance_lux = 5.0;  ///< Only `by_illuminance` asks for it.
   std::uint64_t seed = 1;
+  /// Called once, before the first events, with the sensor's size.
+  std::function<void(core::Resolution)> on_start;
   /// Called after every frame with the time reached and that of the last frame (0 when
   /// a video does not tell). May throw to stop.
   std::function<void(double done_s, double end_s)> on_progress;

@@ -12,21 +12,19 @@
 #include "msg/bus.h"
 #include "msg/log_writer.h"
 #include "scenarios/estimates_csv.h"
+#include "scenarios/flight_end.h"
 #include "scenarios/output_folder.h"
 #include "scenarios/reconstruction_node.h"
 #include "scenarios/record_node.h"
 #include "scenarios/scorer.h"
 #include "scenarios/simulation_node.h"
+#include "scenarios/source_check.h"
 #include "scenarios/tracker_node.h"
 #include "scenarios/video.h"
 #include "sim/simulation.h"
 
 namespace nightjar::scenarios {
 namespace {
-
-using namespace std::chrono_literals;
-
-constexpr core::Time kAfterTouchdown = 500ms;
 
 void record_channels(msg::LogWriter& log, msg::Bus& bus, bool events) {
   log.record(bus, msg::kTruth);
@@ -55,7 +53,6 @@ class Run {
   void film();
   void add_sensor_counts(Summary& summary) const;
   std::vector<core::StageTime> stage_times() const;
-  bool over() const;
 
   const Scenario& scenario_;
   const RunOptions& options_;
@@ -70,12 +67,11 @@ class Run {
   ReconstructionNode reconstruction_;
   TrackerNode tracker_;
   RecordNode records_;
+  FlightEnd end_;
   core::StageTimer handling_{"all messages", "handling"};
   core::StageTimer waiting_{"wait for handling", "world"};
   core::StageTimer filming_{"film", "world"};
   core::MissionPhase phase_ = core::MissionPhase::search;
-  std::optional<core::Time> touched_down_;
-  core::Time end_;
 };
 
 Scorer::Setup scorer_setup(const Scenario& scenario, const core::CameraModel& camera) {
@@ -93,11 +89,11 @@ Run::Run(const Scenario& scenario, const RunOptions& options)
       csv_(folder_),
       log_(folder_.path(kLogFile)),
       world_(bus_, simulation_),
-      reconstruction_(bus_, scenario.esi, simulation_.world().camera_model().size),
+      reconstruction_(bus_, scenario.reconstructor, simulation_.world().camera_model().size),
       tracker_(bus_, scenario.tracker, simulation_.world().camera_model(),
                simulation_.world().T_body_camera()),
       records_(bus_, [this](const PictureRecord& record) { take(record); }),
-      end_(core::from_seconds(scenario.duration_s)) {
+      end_(bus_, scenario.duration_s) {
   spdlog::info("rendering with {}", simulation_.world().renderer_description());
   save(scenario, folder_.part(kScenarioFile));
   folder_.complete(kScenarioFile);
@@ -105,7 +101,6 @@ Run::Run(const Scenario& scenario, const RunOptions& options)
   bus_.subscribe(msg::kMissionTransition, [this](const core::MissionTransition& transition) {
     scorer_.add(transition);
     phase_ = transition.to;
-    if (phase_ == core::MissionPhase::touched_down) touched_down_ = transition.t;
     spdlog::info("{:7.2f} s  {} -> {}: {}", core::seconds(transition.t), to_string(transition.from),
                  to_string(transition.to), transition.cause);
   });
@@ -116,12 +111,6 @@ void Run::take(const PictureRecord& record) {
   scorer_.add(record);
   csv_.add(record);
   if (video_) video_->add(record);
-}
-
-bool Run::over() const {
-  const core::Truth truth = simulation_.world().truth();
-  return truth.t >= end_ || truth.crashed ||
-         (touched_down_ && truth.t >= *touched_down_ + kAfterTouchdown);
 }
 
 std::vector<core::StageTime> Run::stage_times() const {
@@ -149,7 +138,7 @@ void Run::fly() {
   world_.take_setpoint();
   world_.fly();
   film();
-  while (!over()) {
+  while (!end_.reached(simulation_.world().truth())) {
     world_.take_setpoint();
     std::future<void> handled = std::async(std::launch::async, [this] { handle(); });
     world_.fly();
@@ -190,6 +179,7 @@ Summary Run::finish(double wall_time_s) {
 }  // namespace
 
 Summary run(const Scenario& scenario, const RunOptions& options) {
+  check_source(scenario, camera::SourceType::simulation);
   const auto begin = std::chrono::steady_clock::now();
   Run flight(scenario, options);
   flight.fly();

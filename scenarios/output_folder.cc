@@ -20,15 +20,6 @@ constexpr std::array kResultFiles{kSummaryFile, kScenarioFile, kEstimatesFile, k
   throw std::invalid_argument(fmt::format("output folder {}: {}", folder.string(), why));
 }
 
-void create(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  std::error_code ignored;
-  if (std::filesystem::is_directory(folder, ignored)) return;
-  if (std::filesystem::exists(folder, ignored)) throw_unusable(folder, "is a file");
-  throw_unusable(folder, "cannot be created, " + error.message());
-}
-
 void remove_old(const std::filesystem::path& file) {
   std::error_code error;
   std::filesystem::remove(file, error);
@@ -48,8 +39,17 @@ void check_writable(const std::filesystem::path& folder, const std::filesystem::
 
 }  // namespace
 
+bool create_output_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  const bool is_new = std::filesystem::create_directories(folder, error);
+  std::error_code ignored;
+  if (std::filesystem::is_directory(folder, ignored)) return is_new;
+  if (std::filesystem::exists(folder, ignored)) throw_unusable(folder, "is a file");
+  throw_unusable(folder, "cannot be created, " + error.message());
+}
+
 OutputFolder::OutputFolder(std::filesystem::path folder) : folder_(std::move(folder)) {
-  create(folder_);
+  create_output_folder(folder_);
   check_writable(folder_, part(kSummaryFile));
   for (const std::string_view name : kResultFiles) {
     remove_old(path(name));

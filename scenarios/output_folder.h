@@ -13,6 +13,10 @@ inline constexpr std::string_view kLogFile = "run.lcm";
 inline constexpr std::string_view kVideoFile = "run.mp4";
 inline constexpr std::string_view kSummaryFile = "summary.json";
 
+/// Creates the folder where needed; whether it was. Throws std::invalid_argument, in one
+/// line, when the path is a file or cannot be created.
+bool create_output_folder(const std::filesystem::path& folder);
+
 /// The folder of a run's results. A file is called NAME.part.EXT until it is
 /// complete, and summary.json appears after all others: a folder that has it
 /// holds a whole run.

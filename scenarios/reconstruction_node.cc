@@ -1,16 +1,18 @@
 #include "scenarios/reconstruction_node.h"
 
+#include "esi/make_network.h"
 #include "msg/channels.h"
 
 namespace nightjar::scenarios {
 
-ReconstructionNode::ReconstructionNode(msg::Bus& bus, const esi::EsiConfig& config,
+ReconstructionNode::ReconstructionNode(msg::Bus& bus, const esi::ReconstructorConfig& config,
                                        core::Resolution size)
-    : esi_(config, size) {
+    : reconstructor_(esi::make_any_reconstructor(config, size)), feed_(*reconstructor_) {
+  bus.subscribe(msg::kApsFrame, [this](const core::ApsFrame& frame) { feed_.add_frame(frame); });
   bus.subscribe(msg::kEvents, [this, &bus](const core::EventPacket& packet) {
     reconstructing_([&] {
-      esi_.process(packet.events);
-      esi_.render(packet.end, picture_);
+      feed_.advance(packet.events, packet.end);
+      reconstructor_->render(packet.end, picture_);
     });
     bus.publish(msg::kPicture, picture_);
   });

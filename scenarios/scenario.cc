@@ -7,6 +7,7 @@
 
 #include "core/config_check.h"
 #include "scenarios/consistency.h"
+#include "scenarios/reconstruct_settings.h"
 #include "scenarios/yaml_reader.h"
 #include "scenarios/yaml_writer.h"
 
@@ -60,6 +61,7 @@ Scenario parse(const std::string& text, const fs::path& path) {
   if (scenario.model.empty() || !is_file(model))
     throw ScenarioError(place_of("model", root, file) + ": " + no_model(scenario.model));
   scenario.model = fs::proximate(model).string();
+  move_weights(scenario.reconstructor, path.parent_path(), fs::current_path());
   try {
     check(scenario);
   } catch (const std::invalid_argument& error) {  // a default, or values that do not fit
@@ -80,7 +82,9 @@ void check(const Scenario& scenario) {
 
 void save(const Scenario& scenario, const fs::path& path) {
   Scenario copy = scenario;
-  copy.model = fs::proximate(scenario.model, fs::absolute(path).parent_path()).string();
+  const fs::path folder = fs::absolute(path).parent_path();
+  copy.model = fs::proximate(scenario.model, folder).string();
+  move_weights(copy.reconstructor, fs::current_path(), folder);
   std::ofstream stream(path, std::ios::binary);
   stream << to_yaml(copy);
   if (copy.sensor.preset != sim::SensorPreset::custom) stream << pixel_comment(copy);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "camera/config.h"
 #include "esi/config.h"
 #include "scenarios/pass_criteria_config.h"
 #include "scenarios/scenario_error.h"
@@ -24,11 +25,12 @@ struct Scenario {
   /// The MJCF scene. In a file: relative to that file. In the struct, after
   /// load(): relative to the working directory.
   std::string model;
+  nightjar::camera::SourceConfig source;
   sim::WorldConfig world;
   TagConfig tag;
   sim::CameraConfig camera;
   sim::SensorConfig sensor;
-  esi::EsiConfig esi;
+  esi::ReconstructorConfig reconstructor;
   tracker::TrackerConfig tracker;
   PassCriteria pass;
 
@@ -39,11 +41,12 @@ struct Scenario {
     v.field("duration_s", duration_s, 0.01, 3600.0);
     v.field("illuminance_lux", illuminance_lux, 0.1, 100000.0);
     v.field("model", model);
+    v.section("source", source);
     v.section("world", world);
     v.section("tag", tag);
     v.section("camera", camera);
     v.section("sensor", sensor);
-    v.section("esi", esi);
+    v.section("reconstructor", reconstructor);
     v.section("tracker", tracker);
     v.section("pass", pass);
   }

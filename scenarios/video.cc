@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "msg/channels.h"
+#include "scenarios/gray_video.h"
 #include "scenarios/video_panes.h"
 
 namespace nightjar::scenarios {
@@ -50,12 +51,6 @@ std::string caption(const PictureRecord& record) {
   return fmt::format("{:5.2f} s   UGV {}   UAV {}   {:.2f} m above the tag, {:.2f} m aside",
                      core::seconds(record.truth.t), record.truth.course_phase,
                      to_string(record.mission_phase), apart.z(), apart.head<2>().norm());
-}
-
-/// 0 when the file cannot be read.
-int frames_in(const std::string& path) {
-  cv::VideoCapture video(path);
-  return video.isOpened() ? cvRound(video.get(cv::CAP_PROP_FRAME_COUNT)) : 0;
 }
 
 }  // namespace
@@ -116,7 +111,7 @@ cv::Mat Video::Impl::compose(const PictureRecord& record) const {
   for (const core::TagDetection& tag : record.detections) outline(picture_pane, tag);
   write(frame_pane, "frame camera (APS)", {10, 24});
   write(event_view, "events since the last frame", {10, 24});
-  write(picture_pane, "ESI picture and tag", {10, 24});
+  write(picture_pane, "reconstructed picture and tag", {10, 24});
   write(chase_pane, "outside view (lit for the viewer)", {10, 24});
 
   cv::Mat top, bottom, all;
@@ -143,7 +138,7 @@ void Video::finish() {
   impl_->writer.release();
   // The writer itself says nothing of a full disk or a codec that gives up.
   const std::string path = impl_->folder.part(kVideoFile).string();
-  const int readable = impl_->frames_written > 0 ? frames_in(path) : 0;
+  const int readable = impl_->frames_written > 0 ? video_frames(path) : 0;
   if (readable == 0 || readable != impl_->frames_written)
     throw std::runtime_error(fmt::format("{}: {} frames can be read of {} written", path, readable,
                                          impl_->frames_written));

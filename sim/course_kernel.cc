@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sim/instruction_sets.h"
+#include "core/instruction_sets.h"
 
 namespace nightjar::sim {
 namespace {
@@ -88,8 +88,8 @@ std::uint64_t improve_plain(Crossings& c, double tolerance) { return improve_bod
 std::vector<CourseVariant> course_variants() {
   std::vector<CourseVariant> variants{{"plain", set_up_plain, start_plain, improve_plain}};
 #if defined(__x86_64__)
-  if (instruction_sets().avx2) variants.push_back({"avx2", set_up_avx2, start_avx2, improve_avx2});
-  if (instruction_sets().avx512)
+  if (core::instruction_sets().avx2) variants.push_back({"avx2", set_up_avx2, start_avx2, improve_avx2});
+  if (core::instruction_sets().avx512)
     variants.push_back({"avx512", set_up_avx512, start_avx512, improve_avx512});
 #endif
   return variants;

@@ -60,13 +60,17 @@ void PointProcess::draw_ahead() {
     height[k] = static_cast<std::uint32_t>(bits);
     __builtin_prefetch(&columns_[column[k]]);
   }
-  for (NoisePoint& point : ahead_) {
+  std::array<float, kAhead> gap;
+  for (std::uint32_t k = 0; k < kAhead; ++k) {
     // 40 bits for the gap, so that none is beyond reach, 24 for the mark.
     const std::uint64_t bits = random_();
-    const float above_0 = static_cast<float>(static_cast<std::int64_t>(bits >> 24) + 1) * 0x1p-40f;
-    last_us_ -= mean_gap_us_ * fast_log(above_0);
-    point.t_us = last_us_;
-    point.mark = static_cast<float>(static_cast<std::int32_t>(bits & 0xffffff)) * 0x1p-24f;
+    gap[k] = static_cast<float>(static_cast<std::int64_t>(bits >> 24) + 1) * 0x1p-40f;
+    ahead_[k].mark = static_cast<float>(static_cast<std::int32_t>(bits & 0xffffff)) * 0x1p-24f;
+  }
+  for (float& g : gap) g = -fast_log<Apart>(g);  // many at a time
+  for (std::uint32_t k = 0; k < kAhead; ++k) {
+    last_us_ += mean_gap_us_ * static_cast<double>(gap[k]);
+    ahead_[k].t_us = last_us_;
   }
   for (std::uint32_t k = 0; k < kAhead; ++k) {
     const Column& c = columns_[column[k]];

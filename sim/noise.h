@@ -59,7 +59,7 @@ std::vector<double> shot_noise_rates_hz(double shot_noise_rate_hz, double thresh
 /// v2e's intensity factor, 0.95 in the dark, 0.25 for white and above.
 inline double shot_noise_factor(double intensity) {
   constexpr double kInWhite = 0.25;
-  return 1 - (1 - kInWhite) * std::min(1.0, (intensity + kDarkOffset) / kWhiteWithOffset);
+  return 1 - (1 - kInWhite) * std::min(1.0, (intensity + kDarkOffset) * (1 / kWhiteWithOffset));
 }
 
 /// The hot pixels and their rates.

@@ -9,7 +9,9 @@ namespace nightjar::sim {
 
 /// The constants of one dense pass. Intensity is on v2e's scale (white = 255).
 struct KernelStep {
-  float scale = 1;   ///< Intensity per lux.
+  float scale = 1;  ///< Intensity per lux.
+  /// Inputs beyond are no light, and k dt does not overflow over an hour at the greatest cutoff.
+  float most_luminance_lux = 1e20f;
   float knee = 20;   ///< Linear up to here; -1 = logarithm only.
   float linear = 0;  ///< Log intensity per intensity below the knee.
   /// What makes the integral of the intensity over its log continuous at the knee.
@@ -23,13 +25,13 @@ struct KernelStep {
 /// them lies together: arrays of whole pictures would share their cache sets
 /// and push each other out.
 struct alignas(64) PixelBlock {
-  static constexpr std::uint32_t kPixels = 256;
+  static constexpr std::uint32_t kPixels = 512;
 
   float intensity[kPixels];
-  float log_intensity[kPixels];
-  float lag[kPixels];       ///< Photoreceptor output minus log intensity.
-  float residual[kPixels];  ///< Photoreceptor output minus what the pixel last
-                            ///< memorised.
+  float log_intensity[kPixels];  ///< Of `intensity`.
+  float lag[kPixels];            ///< Photoreceptor output minus log intensity.
+  float residual[kPixels];       ///< Photoreceptor output minus what the pixel last
+                                 ///< memorised.
   float threshold_on[kPixels];
   float threshold_off[kPixels];
   float leak_per_s[kPixels];
@@ -87,12 +89,10 @@ void intensities_between(const KernelStep& step, const float* before, const floa
 
 /// The heart of advance_pixels and intensities_between for one instruction set.
 struct KernelVariant {
-  /// Every input has to be usable.
-  using Advance = void (*)(const KernelStep&, const float* luminance_lux, std::uint32_t count,
+  /// False, and the block is as before, if any input has to be corrected, be it from -0 to 0.
+  using Advance = bool (*)(const KernelStep&, const float* luminance_lux, std::uint32_t count,
                            PixelBlock&, BlockStep&);
   const char* name;
-  /// False if any input has to be corrected, be it from -0 to 0.
-  bool (*usable)(const float* luminance_lux, std::uint32_t count);
   Advance with_low_pass;
   Advance without_low_pass;
   void (*between)(const KernelStep&, const float* before, const float* after, float share,

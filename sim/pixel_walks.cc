@@ -1,6 +1,7 @@
 #include "sim/pixel_walks.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace nightjar::sim {
@@ -21,71 +22,76 @@ void PixelWalks::begin_step(core::Time begin, core::Time dt) {
 
 void PixelWalks::set_off() {
   set_up(starts_, dt_us_ * 1e-6);
-  open_.clear();
-  for (std::uint32_t k = 0; k < starts_.count; ++k) {
-    Walk& walk = walks_[k];
-    walk.course = starts_.course[k];
-    open_.push_back(&walk);
-    if (rest_until_us_.empty()) continue;
-    walk.awake = std::max(0.0, in_step(rest_until_us_[walk.pixel]));
-    if (walk.awake > 0 && walk.awake <= 1) walk.course.memorise(walk.course.residual(walk.awake));
+  open_.resize(walks_.size());
+  std::iota(open_.begin(), open_.end(), 0u);
+  if (rest_until_us_.empty()) return;
+  for (const std::uint32_t k : open_) {
+    ResidualCourse& course = starts_.course[k];
+    const double awake = std::max(0.0, in_step(rest_until_us_[walks_[k].pixel]));
+    if (awake > 0 && awake <= 1) course.memorise(course.residual(awake));
+    walks_[k].awake = awake;
   }
-  starts_.count = 0;
 }
 
 // Inlined below: calls would cost half as much as what they do.
 
 /// One event at `s`, with the residual at `level`.
-[[gnu::always_inline]] inline void PixelWalks::fire(Walk& walk, double s, double level, bool on,
-                                                    FiredEvents& fired) {
+[[gnu::always_inline]] inline void PixelWalks::fire(std::uint32_t k, double s, double level,
+                                                    bool on, FiredEvents& fired) {
+  Walk& walk = walks_[k];
+  ResidualCourse& course = starts_.course[k];
   // The first whole microsecond not before it, so that it lies in (begin, end].
   const double exact_us = std::clamp(s * dt_us_, 0.5, dt_us_);
   const auto floor_us = static_cast<std::uint32_t>(exact_us);
   fired.add(floor_us + (floor_us < exact_us), walk.pixel, on);
-  walk.course.memorise(level);
+  course.memorise(level);
   if (leak_.enabled()) {
     const float leak_per_s = leak_.next_per_s(walk.pixel);
     walk.block->leak_per_s[walk.i] = leak_per_s;
-    walk.course.change_leak(s, leak_per_s * dt_us_ * 1e-6);
+    course.change_leak(s, leak_per_s * dt_us_ * 1e-6);
   }
   walk.awake = s;
   if (rest_until_us_.empty()) return;
   walk.awake += refractory_us_ * per_us_;
   rest_until_us_[walk.pixel] = begin_us_ + walk.awake * dt_us_;
   // Held in reset, it memorises what it wakes up to.
-  if (walk.awake <= 1) walk.course.memorise(walk.course.residual(walk.awake));
+  if (walk.awake <= 1) course.memorise(course.residual(walk.awake));
 }
 
-[[gnu::always_inline]] inline void PixelWalks::finish(Walk& walk) {
+[[gnu::always_inline]] inline void PixelWalks::finish(std::uint32_t k) {
+  const Walk& walk = walks_[k];
   const bool rests = walk.awake > 1;
   if (rests) resting_.push_back(walk.pixel);
-  walk.block->residual[walk.i] = rests ? 0.0f : static_cast<float>(walk.course.residual_at_end());
+  walk.block->residual[walk.i] =
+      rests ? 0.0f : static_cast<float>(starts_.course[k].residual_at_end());
 }
 
 /// Fires the noise that comes before the pixel's next crossing and asks for that crossing's
 /// time. False, and the walk is finished, if there is none in this step.
-[[gnu::always_inline]] inline bool PixelWalks::go_to_crossing(Walk& walk, FiredEvents& fired,
+[[gnu::always_inline]] inline bool PixelWalks::go_to_crossing(std::uint32_t k, FiredEvents& fired,
                                                               EmulatorCounts& counts) {
+  Walk& walk = walks_[k];
+  const ResidualCourse& course = starts_.course[k];
   const double on = walk.threshold_on;
   const double off = walk.threshold_off;
   const auto crosses = [&](double residual, double to) {
     // Nobody can guess the sign, so that there is no branch for it.
     const bool up = residual >= on;
     if (!((walk.awake < to) & (up | (residual <= -off)))) return false;
-    crossings_.add(walk.course, select(up, on, -off), walk.awake, to);
+    crossings_.add(course, select(up, on, -off), walk.awake, to);
     return true;
   };
   for (; !walk.noise.empty(); walk.noise = walk.noise.subspan(1)) {
     const NoiseCandidate& noise = walk.noise.front();
     const double s = in_step(noise.t_us);
     if (walk.awake > s) continue;
-    const double residual = walk.course.residual(s);
+    const double residual = course.residual(s);
     if (crosses(residual, s)) return true;
     ++(noise.kind == NoiseCandidate::hot ? counts.hot : counts.shot);
-    fire(walk, s, residual, noise.kind != NoiseCandidate::shot_off, fired);
+    fire(k, s, residual, noise.kind != NoiseCandidate::shot_off, fired);
   }
-  if (crosses(walk.course.residual_at_end(), 1)) return true;
-  finish(walk);
+  if (crosses(course.residual_at_end(), 1)) return true;
+  finish(k);
   return false;
 }
 
@@ -94,13 +100,14 @@ void PixelWalks::run(FiredEvents& fired, EmulatorCounts& counts) {
   constexpr double kToleranceUs = 0.05;
   while (!open_.empty()) {
     crossings_.count = 0;
-    std::erase_if(open_, [&](Walk* walk) { return !go_to_crossing(*walk, fired, counts); });
+    std::erase_if(open_, [&](std::uint32_t k) { return !go_to_crossing(k, fired, counts); });
     solve(crossings_, kToleranceUs / dt_us_);
     for (std::uint32_t k = 0; k < crossings_.count; ++k)
-      fire(*open_[k], crossings_.s[k], crossings_.level[k], crossings_.level[k] > 0, fired);
+      fire(open_[k], crossings_.s[k], crossings_.level[k], crossings_.level[k] > 0, fired);
     counts.signal += crossings_.count;
   }
   walks_.clear();
+  starts_.count = 0;
 }
 
 std::vector<std::uint32_t> PixelWalks::take_resting() {

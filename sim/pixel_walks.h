@@ -44,8 +44,8 @@ class PixelWalks {
   std::vector<std::uint32_t> take_resting();
 
  private:
+  /// Its course has the same index in `starts_`.
   struct Walk {
-    ResidualCourse course;                  ///< Set by `run`.
     std::span<const NoiseCandidate> noise;  ///< Still to come.
     float threshold_on, threshold_off;
     PixelBlock* block;
@@ -55,9 +55,9 @@ class PixelWalks {
   };
 
   void set_off();
-  bool go_to_crossing(Walk& walk, FiredEvents& fired, EmulatorCounts& counts);
-  void fire(Walk& walk, double s, double level, bool on, FiredEvents& fired);
-  void finish(Walk& walk);
+  bool go_to_crossing(std::uint32_t k, FiredEvents& fired, EmulatorCounts& counts);
+  void fire(std::uint32_t k, double s, double level, bool on, FiredEvents& fired);
+  void finish(std::uint32_t k);
   double in_step(double t_us) const { return (t_us - begin_us_) * per_us_; }
 
   double refractory_us_;
@@ -67,11 +67,11 @@ class PixelWalks {
 
   double begin_us_ = 0;
   double dt_us_ = 0;
-  double per_us_ = 0;    ///< 1/dt_us_
-  CourseStarts starts_;  ///< Those of `walks_`.
+  double per_us_ = 0;  ///< 1/dt_us_
   std::vector<Walk> walks_;
-  std::vector<Walk*> open_;  ///< Not yet at the end of the step.
-  Crossings crossings_;      ///< Those of `open_`.
+  CourseStarts starts_;
+  std::vector<std::uint32_t> open_;  ///< Of `walks_`, not yet at the end of the step.
+  Crossings crossings_;              ///< Those of `open_`.
 };
 
 inline void PixelWalks::add(std::uint32_t first_pixel, std::uint32_t i, PixelBlock& block,
@@ -83,7 +83,7 @@ inline void PixelWalks::add(std::uint32_t first_pixel, std::uint32_t i, PixelBlo
   starts_.residual[k] = before.residual[i];
   starts_.rate[k] = before.kdt[i];
   walks_.push_back(
-      {{}, noise, block.threshold_on[i], block.threshold_off[i], &block, i, first_pixel + i});
+      {noise, block.threshold_on[i], block.threshold_off[i], &block, i, first_pixel + i});
   leak_.prefetch(first_pixel + i);
 }
 

@@ -22,7 +22,7 @@ build/release/bin/benchmarks --benchmark_filter="$filter" --benchmark_repetition
 # NAME_reference is the reference of every benchmark whose name begins with NAME, and
 # NAME_reference/ARGUMENT of NAME/ARGUMENT.
 jq '[.benchmarks[] | select(.aggregate_name == "median")
-     | {name: (.run_name | sub("/(real|manual)_time$"; "")), time: .real_time, unit: .time_unit}] as $all
+     | {name: (.run_name | sub("(/iterations:1)?/(real|manual)_time$"; "")), time: .real_time, unit: .time_unit}] as $all
     | [$all[] | select(.name | contains("_reference"))
        | {key: (.name | sub("_reference"; "")), time}] as $references
     | {context: (.context | {date, num_cpus, mhz_per_cpu, load_avg}),

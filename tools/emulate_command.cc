@@ -12,8 +12,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "camera/event_text.h"
 #include "camera/frame_source.h"
+#include "camera/recording_writer.h"
 #include "scenarios/emulate.h"
 #include "scenarios/scenario.h"
 #include "tools/interrupt.h"
@@ -46,13 +46,13 @@ linear in time, no frames are made up: give so many that little moves more than 
 from one to the next. The sensor has the size of the frames (or --size, 346x260 for a
 DAVIS346), frames are not undistorted or cropped.
 
-EVENTS.txt has one event a line, "t_seconds x y polarity", polarity 1 = ON, 0 = OFF; the
-first frame is at 0. It appears when it is complete. Events that wait for the readout at
+EVENTS is an AEDAT recording, or a text with one event a line, "t_seconds x y polarity",
+polarity 1 = ON, 0 = OFF; the first frame is at 0. It appears when it is complete. Events that wait for the readout at
 the last frame come at its end, with times after that frame.
 
 Examples:
   nightjar emulate frames/ --fps 500 --preset dim --out events.txt
-  nightjar emulate tennis.mp4 --size 346x260 --preset clean --out events.txt
+  nightjar emulate tennis.mp4 --size 346x260 --preset clean --out events.aedat4
   nightjar emulate slow.mp4 --fps 960 --out events.txt     (played at 30, taken at 960 Hz)
   nightjar emulate frames/ --fps 100 --preset by_illuminance --illuminance 50 --out e.txt
   nightjar emulate exr/ --fps 1000 --white 4 --scenario scenarios/smoke.yaml --out e.txt
@@ -65,9 +65,11 @@ void declare(CLI::App& command, Arguments& arguments) {
                   "a folder of pictures (PNG, TIFF, PGM, JPEG, EXR, HDR, PFM, ...), taken in the "
                   "order of their names (frame2 before frame10), or a video")
       ->required();
-  command.add_option("--out", arguments.out, "where the events go: a name ending in .txt")
+  command
+      .add_option("--out", arguments.out,
+                  "where the events go: a name ending in .txt, .aedat4 or .aedat (3.1)")
       ->required()
-      ->type_name("EVENTS.txt");
+      ->type_name("EVENTS");
   command
       .add_option(
           "--fps", arguments.fps,
@@ -98,13 +100,6 @@ void declare(CLI::App& command, Arguments& arguments) {
   command.add_flag("--json", arguments.json, "print the summary as JSON");
   command.add_flag("--quiet", arguments.quiet, "no progress, no table");
   command.footer(kNotes);
-}
-
-void check_out(const std::filesystem::path& out) {
-  if (out.extension() == ".txt") return;
-  const char* later = out.extension() == ".aedat4" ? " (AEDAT4 comes later)" : "";
-  throw std::invalid_argument(
-      fmt::format("--out = {}, allowed a name ending in .txt{}", out.string(), later));
 }
 
 /// A value that would change nothing is refused, and so is one that is missing.
@@ -145,21 +140,27 @@ camera::FrameOptions frame_options_of(const Arguments& arguments) {
 }
 
 scenarios::Emulation emulate(const Arguments& arguments) {
-  check_out(arguments.out);
+  camera::check_recording_name("--out", arguments.out);
   scenarios::EmulateOptions options = options_of(arguments);
   const auto frames = camera::open_frames(arguments.input, frame_options_of(arguments));
   note_interrupts();  // before there is anything to leave behind
-  camera::EventTextWriter out(arguments.out);
+  std::unique_ptr<camera::RecordingWriter> out;
+  camera::RecordingPart part;
 
   std::optional<ProgressBar> progress;
   if (!arguments.quiet && isatty(STDERR_FILENO) != 0) progress.emplace(std::cerr, true);
+  options.on_start = [&](core::Resolution size) {
+    out = camera::create_recording(arguments.out, {size, "Nightjar"});
+  };
   options.on_progress = [&](double done_s, double end_s) {
     throw_if_interrupted();
     if (progress && end_s > 0) progress->update(done_s, end_s, "emulating");
   };
-  const scenarios::Emulation emulation =
-      scenarios::emulate(*frames, options, [&](auto events) { out.write(events); });
-  out.finish();
+  const scenarios::Emulation emulation = scenarios::emulate(*frames, options, [&](auto events) {
+    part.events.assign(events.begin(), events.end());
+    out->write(part);
+  });
+  out->finish();
   return emulation;
 }
 

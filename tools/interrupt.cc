@@ -19,8 +19,10 @@ void note_interrupts() {
   std::signal(SIGTERM, note);
 }
 
+bool interrupted() { return noted != 0; }
+
 void throw_if_interrupted() {
-  if (noted) throw Interrupted();
+  if (interrupted()) throw Interrupted();
 }
 
 }  // namespace nightjar::tools

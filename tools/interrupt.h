@@ -14,7 +14,10 @@ class Interrupted : public std::exception {
 /// second one ends it.
 void note_interrupts();
 
-/// Throws Interrupted once a signal has been noted.
+/// Whether a signal has been noted.
+bool interrupted();
+
+/// Throws Interrupted once one has.
 void throw_if_interrupted();
 
 }  // namespace nightjar::tools

@@ -6,12 +6,22 @@
 #include <stdexcept>
 #include <string>
 
+#include "tools/bench_command.h"
+#include "tools/convert_command.h"
 #include "tools/emulate_command.h"
 #include "tools/exit_code.h"
+#include "tools/info_command.h"
 #include "tools/interrupt.h"
 #include "tools/parameters_command.h"
+#include "tools/quality_command.h"
+#include "tools/reconstruct_command.h"
+#include "tools/replay_command.h"
 #include "tools/run_command.h"
 #include "tools/sensor_report_command.h"
+#include "tools/simulate_command.h"
+#include "tools/track_command.h"
+#include "tools/trial_command.h"
+#include "tools/view_command.h"
 
 namespace {
 
@@ -39,9 +49,19 @@ int main(int argc, char** argv) {
   app.require_subcommand(0, 1);  // none is refused below, after a misspelt one
   int exit_code = kPassed;
   add_run_command(app, exit_code);
+  add_bench_command(app);
+  add_convert_command(app);
   add_emulate_command(app);
+  add_info_command(app);
   add_parameters_command(app);
+  add_quality_command(app);
+  add_reconstruct_command(app);
+  add_replay_command(app);
   add_sensor_report_command(app);
+  add_simulate_command(app);
+  add_track_command(app);
+  add_trial_command(app);
+  add_view_command(app);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty())

@@ -34,7 +34,13 @@ ProgressBar::~ProgressBar() {
 
 void ProgressBar::update(double done_s, double end_s, const std::string& phase) {
   const double share = end_s > 0 ? std::clamp(done_s / end_s, 0.0, 1.0) : 1.0;
-  if (is_due(share)) draw(share, done_s, end_s, phase);
+  if (is_due(share))
+    draw(share,
+         fmt::format("{:.1f} of {:.1f} s  {} left  {}", done_s, end_s, remaining(share), phase));
+}
+
+void ProgressBar::update(double share, const std::string& phase) {
+  if (is_due(share)) draw(share, fmt::format("{} left  {}", remaining(share), phase));
 }
 
 bool ProgressBar::is_due(double share) {
@@ -59,10 +65,8 @@ std::string ProgressBar::remaining(double share) const {
   return fmt::format("{}:{:02}", left_s / 60, left_s % 60);
 }
 
-void ProgressBar::draw(double share, double done_s, double end_s, const std::string& phase) {
-  const std::string line =
-      fmt::format("{:3.0f} %  {:.1f} of {:.1f} s  {} left  {}", std::floor(share * 100), done_s,
-                  end_s, remaining(share), phase);
+void ProgressBar::draw(double share, const std::string& what) {
+  const std::string line = fmt::format("{:3.0f} %  {}", std::floor(share * 100), what);
   if (is_terminal_)
     out_ << kClearLine << '[' << bar(share) << "] " << line;
   else

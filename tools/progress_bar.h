@@ -25,10 +25,13 @@ class ProgressBar {
   /// `done_s` of `end_s` simulated seconds are flown; `phase` names what happens.
   void update(double done_s, double end_s, const std::string& phase);
 
+  /// The same for work that is not measured in seconds: `share` of it, 0 to 1, is done.
+  void update(double share, const std::string& phase);
+
  private:
   bool is_due(double share);
   std::string remaining(double share) const;
-  void draw(double share, double done_s, double end_s, const std::string& phase);
+  void draw(double share, const std::string& what);
 
   std::ostream& out_;
   bool is_terminal_;

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "camera/event_text.h"
+#include "camera/recording.h"
 #include "core/part_file.h"
 #include "scenarios/gnuplot.h"
 #include "scenarios/scenario.h"
@@ -48,7 +49,7 @@ from and what they can be compared with: docs/sensor.md.
 
 Examples:
   nightjar sensor-report --preset dim
-  nightjar sensor-report --illuminance 300 --recording events.txt --size 346x260 --out report.png
+  nightjar sensor-report --illuminance 300 --recording road.aedat4 --out report.png
   nightjar sensor-report --scenario scenarios/tracking_landing.yaml --json | jq .columns[0].quiet
 
 Exit codes: 0 done, 2 bad input, 3 our own fault or the disk's, or no gnuplot, 130 interrupted.)";
@@ -66,7 +67,9 @@ void declare(CLI::App& command, Arguments& arguments) {
                   "take sensor, illuminance, size and seed from a scenario file")
       ->excludes(preset)
       ->type_name("FILE");
-  command.add_option("--recording", arguments.recording, "events of a real sensor: t x y polarity")
+  command
+      .add_option("--recording", arguments.recording,
+                  "events of a real sensor: AEDAT4, AEDAT 3.1, AEDAT 2.0 or text")
       ->type_name("FILE");
   command
       .add_option("--size", arguments.size,
@@ -86,6 +89,18 @@ void declare(CLI::App& command, Arguments& arguments) {
       ->type_name("FILE.png");
   command.add_flag("--json", arguments.json, "print JSON instead of a table");
   command.footer(kExamples);
+}
+
+/// A recording of any format, at once. Text is taken strictly; what else is not as it
+/// should be is warned of.
+camera::EventRecording read_recording(const fs::path& path, std::optional<core::Resolution> size) {
+  const auto reader = camera::open_recording(path, size);
+  if (reader->format() == "text") return camera::read_event_text(path, size);
+  camera::EventRecording recording{reader->size(), {}};
+  for (camera::RecordingPart part; reader->next(part);)
+    recording.events.insert(recording.events.end(), part.events.begin(), part.events.end());
+  if (reader->faults().any()) std::cerr << "nightjar: warning: " << reader->faults().first << '\n';
+  return recording;
 }
 
 scenarios::SensorReportConfig config_of(const Arguments& arguments) {
@@ -126,7 +141,7 @@ void run(const Arguments& arguments) {
   if (!arguments.recording.empty())
     recorded = scenarios::report_on_recording(
         fs::path(arguments.recording).filename().string(),
-        camera::read_event_text(arguments.recording, recorded_size(arguments)));
+        read_recording(arguments.recording, recorded_size(arguments)));
 
   note_interrupts();  // before there is anything to leave behind
   const std::unique_ptr<core::PartFile> picture = open_picture(arguments.out);

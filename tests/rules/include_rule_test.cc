@@ -93,6 +93,24 @@ TEST_F(IncludeCheckerTest, KeepsEachLibraryInItsFolder) {
               ElementsAre("only scenarios may see yaml-cpp"));
 }
 
+TEST_F(IncludeCheckerTest, KeepsOpenCvOutOfTheReconstructionsButForTheNetworks) {
+  const std::string reason = "of esi only esi/recurrent_network.cc may see opencv2";
+  EXPECT_THAT(check("esi/esi.cc", "opencv2/core.hpp"), ElementsAre(reason));
+  EXPECT_THAT(check("esi/make_network.cc", "opencv2/dnn.hpp"), ElementsAre(reason));
+  EXPECT_THAT(check("esi/recurrent_network.cc", "opencv2/dnn.hpp"), IsEmpty());
+  EXPECT_THAT(check("tracker/tag_detector.cc", "opencv2/core.hpp"), IsEmpty());
+}
+
+TEST_F(IncludeCheckerTest, KeepsTheInstalledReconstructionsFromTheNetworks) {
+  for (const std::string file :
+       {"esi/recurrent_network.h", "esi/make_network.h", "esi/onnx_signature.h"}) {
+    EXPECT_THAT(check("esi/esi.cc", file),
+                ElementsAre("only the networks and those who use esi may see " + file));
+    EXPECT_THAT(check("esi/make_network.cc", file), IsEmpty());
+    EXPECT_THAT(check("scenarios/a.cc", file), IsEmpty());
+  }
+}
+
 TEST_F(IncludeCheckerTest, KeepsExternalHeadersOutOfPublicOnes) {
   const std::string reason = "a public header sees no external header";
   EXPECT_THAT(check("scenarios/a.h", "yaml-cpp/yaml.h"), ElementsAre(reason));

@@ -31,6 +31,12 @@ const std::map<std::string, std::string> kOwner = {
     {"lcm", "msg"},    {"nightjar_lcm", "msg"}, {"yaml-cpp", "scenarios"}, {"apriltag", "tracker"},
 };
 
+// External headers that one file of a folder alone may see: what find_package(nightjar)
+// gives needs core and nothing heavier.
+const std::map<std::string, std::map<std::string, std::string>> kOnlyFile = {
+    {"esi", {{"opencv2", "esi/recurrent_network.cc"}}},
+};
+
 // External headers that a public header may show: Eigen's types are core's own,
 // and nightjar_lcm's are made from msg/*.lcm.
 const std::set<std::string> kAllowedInHeaders = {"Eigen", "nightjar_lcm"};
@@ -50,6 +56,13 @@ bool is_project(const std::string& path) { return kMayInclude.contains(top_folde
 bool is_header(const std::string& file) { return file.ends_with(".h"); }
 bool is_config(const std::string& file) { return file.ends_with("config.h"); }
 
+// The library esi_networks, which is not installed.
+bool is_network(const std::string& file) {
+  static const std::regex kNetworks(
+      R"(esi/(make_network|onnx_signature|recurrent_network)\.(h|cc))");
+  return std::regex_match(file, kNetworks);
+}
+
 // <vector>, <cmath>: without a folder and without an ending.
 bool is_standard(const std::string& path) { return path.find_first_of("/.") == std::string::npos; }
 
@@ -57,10 +70,18 @@ std::optional<std::string> broken_project_rule(const Include& include) {
   const std::string from = top_folder(include.file);
   const std::string to = top_folder(include.path);
   if (from != to && !kMayInclude.at(from).contains(to)) return from + " may not see " + to;
+  if (from == to && is_network(include.path) && !is_network(include.file))
+    return "only the networks and those who use esi may see " + include.path;
   const bool own_config = from == to && is_config(include.path);
   if (is_config(include.file) && to != "core" && !own_config)
     return "a config header sees core and its folder's configs only";
   return std::nullopt;
+}
+
+std::optional<std::string> only_file(const std::string& folder, const std::string& library) {
+  const auto files = kOnlyFile.find(folder);
+  if (files == kOnlyFile.end() || !files->second.contains(library)) return std::nullopt;
+  return files->second.at(library);
 }
 
 std::optional<std::string> broken_external_rule(const Include& include) {
@@ -70,6 +91,8 @@ std::optional<std::string> broken_external_rule(const Include& include) {
   if (const auto owner = kOwner.find(library); owner != kOwner.end() && owner->second != from)
     return "only " + owner->second + " may see " + library;
   if (is_config(include.file)) return "a config header sees no external header";
+  if (const auto file = only_file(from, library); file && *file != include.file)
+    return "of " + from + " only " + *file + " may see " + library;
   if (is_header(include.file) && !kAllowedInHeaders.contains(library))
     return "a public header sees no external header";
   return std::nullopt;

@@ -148,9 +148,9 @@ TEST_F(EmulateCommandTest, refuses_options_that_make_no_sense) {
 }
 
 TEST_F(EmulateCommandTest, refuses_places_where_no_events_can_go) {
-  expect_refused("frames --fps 50 --out events.aedat4",
-                 "--out = events.aedat4, allowed a name ending in .txt (AEDAT4 comes later)");
-  expect_refused("frames --fps 50 --out events.csv", "allowed a name ending in .txt");
+  expect_refused(
+      "frames --fps 50 --out events.csv",
+      "--out = events.csv, allowed a name ending in .aedat4, .aedat (AEDAT 3.1) or .txt");
   expect_refused("frames --fps 50 --out none/events.txt", "none/events.txt: cannot be written");
   fs::create_directory(folder_ / "folder.txt");
   expect_refused("frames --fps 50 --out folder.txt", "folder.txt: is not a plain file");

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+
+namespace nightjar::camera {
+
+// libcaer's numbers of special events.
+inline constexpr int kTimestampWrap = 0;
+inline constexpr int kTimestampReset = 1;
+inline constexpr int kExternalPulse = 4;
+inline constexpr int kMostTriggerType = 127;  // seven bits in AEDAT 3.1
+
+/// libcaer's number for AEDAT4's number of a trigger, and the reverse; nothing where the
+/// other side has none.
+std::optional<int> trigger_from_aedat4(int type);
+std::optional<int> trigger_to_aedat4(int type);
+
+}  // namespace nightjar::camera

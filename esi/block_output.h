@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/image.h"
+#include "esi/small_convolution.h"
+
+namespace nightjar::esi {
+
+/// The grey levels of 2x2 pixels, row by row, from all that is known of their block: the
+/// last layer's values and the features themselves, which are sharper.
+class BlockOutput {
+ public:
+  static constexpr int kPixels = 4;
+
+  /// kPixels rows of equally many weights, an even number, for the values of a block, the
+  /// hidden ones first. A pixel's sum is its bias and its weights times the values, and its
+  /// level clamp(127.5 + levels * sum, 0, 255), rounded to the nearest.
+  BlockOutput(std::span<const std::int16_t> weights, std::span<const std::int32_t, kPixels> bias,
+              float levels);
+
+  /// Both of one size; `gray` has twice their sides, or one pixel less at the right or the
+  /// bottom. The same on every processor. The caller sees to it that no sum exceeds 32 bits.
+  void write(const ChannelImage& hidden, const ChannelImage& features,
+             core::Image<std::uint8_t>& gray) const;
+
+ private:
+  using Levels = std::array<std::uint8_t, kPixels>;
+  Levels levels_of(std::span<const std::int16_t> hidden,
+                   std::span<const std::int16_t> features) const;
+
+  /// [pairs of values][kPixels][2 of a pair]: a pair's, side by side.
+  std::vector<std::int16_t> weights_;
+  std::array<std::int32_t, kPixels> bias_;
+  float levels_;
+};
+
+}  // namespace nightjar::esi

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "core/config_check.h"
+
+namespace nightjar::esi {
+
+/// Several ESI sums a pixel, joined by a small convolution network (docs/decisions/0008).
+/// Nothing in it is tuned to a scene; only how its answer is shown can be chosen.
+struct EsiNetConfig {
+  double levels_per_sigma = 45.0;  ///< Grey levels for one deviation of the scene's luminance.
+
+  template <class Visitor>
+  void visit(Visitor& v) {
+    v.field("levels_per_sigma", levels_per_sigma, 1.0, 255.0,
+            {"assumption: +-2.8 deviations fill the range", core::kPureNumber});
+  }
+};
+
+}  // namespace nightjar::esi

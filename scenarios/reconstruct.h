@@ -1,0 +1,39 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "camera/recording.h"
+#include "core/image.h"
+#include "core/state.h"
+#include "esi/config.h"
+#include "scenarios/reconstruction.h"
+#include "tracker/config.h"
+
+namespace nightjar::scenarios {
+
+struct ReconstructOptions {
+  esi::ReconstructorConfig reconstructor;
+  double rate_hz = 100;                             ///< Of the pictures, 0.01 to 100000.
+  std::optional<tracker::DetectorConfig> detector;  ///< Looks for tags in all of each picture.
+  std::optional<double> from_s;   ///< After the first event; earlier are left out.
+  std::optional<double> until_s;  ///< After the first event.
+  /// Called after every picture and part of the recording: seconds done, of how many (an
+  /// estimate). May throw to stop.
+  std::function<void(double done_s, double end_s)> on_progress;
+};
+
+/// Called for every picture with the tags in it (none when not searched).
+using TakePicture = std::function<void(const core::Picture&, std::span<const core::TagDetection>)>;
+
+/// Makes a picture of the recording's events every 1/rate_hz, the first that long after the
+/// first event, the last no later than the last one. Methods that use frames get those of
+/// the recording as they come; see ReconstructorFeed.
+///
+/// Throws std::invalid_argument for options out of range, for what the reader and the
+/// reconstructor throw it for, and for a recording that has no event in the window.
+Reconstruction reconstruct(camera::RecordingReader& recording, const ReconstructOptions& options,
+                           const TakePicture& take);
+
+}  // namespace nightjar::scenarios

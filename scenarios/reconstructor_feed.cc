@@ -1,0 +1,29 @@
+#include "scenarios/reconstructor_feed.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace nightjar::scenarios {
+
+void ReconstructorFeed::advance(std::span<const core::Event> events, core::Time until) {
+  for (; !frames_.empty() && frames_.front().exposure_end <= until; frames_.pop_front()) {
+    const auto later =
+        std::ranges::upper_bound(events, frames_.front().exposure_end, {}, &core::Event::t);
+    const auto before = static_cast<std::size_t>(later - events.begin());
+    reconstructor_.process(events.first(before));
+    events = events.subspan(before);
+    hand_over(frames_.front());
+  }
+  reconstructor_.process(events);
+}
+
+void ReconstructorFeed::hand_over(const core::ApsFrame& frame) {
+  try {
+    reconstructor_.add_frame(frame);
+    ++frames_taken_;
+  } catch (const std::invalid_argument& error) {
+    if (frames_refused_++ == 0) first_refusal_ = error.what();
+  }
+}
+
+}  // namespace nightjar::scenarios

@@ -1,0 +1,64 @@
+#include "scenarios/recording_steps.h"
+
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+
+#include "msg/channels.h"
+
+namespace nightjar::scenarios {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr core::Time kInterval = 10ms;
+
+template <class T>
+void append(std::vector<T>& to, std::vector<T>& from) {
+  to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
+
+/// The first of `list` whose `time` is at most `end`, taken out of it.
+template <class T, class Member>
+std::vector<T> take_until(std::vector<T>& list, core::Time end, Member time) {
+  const auto later = std::ranges::upper_bound(list, end, {}, time);
+  std::vector<T> taken(std::make_move_iterator(list.begin()), std::make_move_iterator(later));
+  list.erase(list.begin(), later);
+  return taken;
+}
+
+}  // namespace
+
+RecordingSteps::RecordingSteps(std::unique_ptr<camera::RecordingReader> recording)
+    : recording_(std::move(recording)) {
+  read_up_to(core::Time::min());
+  if (waiting_.events.empty()) throw std::invalid_argument("the recording holds no events");
+  begin_ = waiting_.events.front().t - 1us;  // packets hold their end, not their beginning
+}
+
+/// Reads on until there is an event later than `end`, so that all up to it have come.
+void RecordingSteps::read_up_to(core::Time end) {
+  while (more_ && (waiting_.events.empty() || waiting_.events.back().t <= end)) {
+    more_ = recording_->next(part_);
+    if (!more_) return;
+    append(waiting_.events, part_.events);
+    append(waiting_.frames, part_.frames);
+    append(waiting_.imu, part_.imu);
+  }
+}
+
+std::optional<core::Time> RecordingSteps::next(msg::Bus& bus) {
+  const core::Time end = begin_ + kInterval;
+  read_up_to(end);
+  if (waiting_.events.empty()) return std::nullopt;
+  for (const auto& sample : take_until(waiting_.imu, end, &camera::RecordedImu::t))
+    bus.publish<core::ImuSample>(msg::kImu, sample);
+  for (const auto& frame : take_until(waiting_.frames, end, &camera::RecordedFrame::exposure_end))
+    if (frame.bits == 8 || frame.bits == 10)  // the others do not travel, see aps_frame_t
+      bus.publish<core::ApsFrame>(msg::kApsFrame, frame);
+  bus.publish(msg::kEvents, {begin_, end, take_until(waiting_.events, end, &core::Event::t)});
+  return begin_ = end;
+}
+
+}  // namespace nightjar::scenarios

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "msg/bus.h"
+#include "msg/step_receiver.h"
+#include "msg/step_sender.h"
+#include "scenarios/process_report.h"
+#include "scenarios/process_roles.h"
+
+namespace nightjar::scenarios {
+
+/// What joins a source of events to the other processes: the source publishes a packet's
+/// messages on the bus inside, this sends them over `wire` and brings the answers back in.
+class SourceLink {
+ public:
+  struct Options {
+    bool lock_step = true;
+    /// Called every 50 ms or more often while waiting; what it throws ends the wait.
+    std::function<void()> while_waiting = [] {};
+  };
+
+  /// `answers` come from the process that closes the loop. `wire` must outlive it.
+  SourceLink(msg::Bus& wire, Sending answers, Options options);
+
+  /// Where the source publishes, kFromSource last the events, and hears the answers.
+  msg::Bus& inside() { return inside_; }
+
+  /// Free-running: waits until as much time has passed since the first call as lies between
+  /// its `t` and this one; a source that is late is not asked to catch up. In lock-step
+  /// returns at once.
+  void wait_until_due(core::Time t);
+
+  /// Sends what was published inside as the step of time `t`. In lock-step waits for the
+  /// answer, and sends the step again whenever there is none for a tenth of a second.
+  void exchange(core::Time t);
+
+  ProcessMeter& meter() { return meter_; }
+
+ private:
+  bool take_answers(std::optional<core::Time> wanted);
+  void receive();
+  void wait(core::Time at_most);
+
+  msg::Bus& wire_;
+  Sending answers_;
+  Options options_;
+  msg::Bus inside_;
+  msg::StepSender sender_;
+  msg::StepReceiver receiver_;
+  ProcessMeter meter_;
+  std::int64_t run_;
+  std::optional<core::Time> zero_;  ///< Steady clock's time of t = 0.
+};
+
+}  // namespace nightjar::scenarios

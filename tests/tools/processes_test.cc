@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/program.h"
+
+// Every loop here runs in a network namespace of its own, with nothing but its loopback
+// device: what is sent cannot leave it.
+namespace nightjar::tools {
+namespace {
+
+constexpr const char* kNamespace = "unshare --user --map-root-user --net";
+constexpr const char* kLoopback =
+    "ip link set lo up && ip link set lo multicast on && ip route add 224.0.0.0/4 dev lo";
+
+bool may_make_a_network() {
+  return std::system(fmt::format("{} sh -c '{}' >/dev/null 2>&1", kNamespace, kLoopback).c_str()) ==
+         0;
+}
+
+class ProcessesTest : public test::ProgramTest {
+ protected:
+  void SetUp() override {
+    if (!may_make_a_network())
+      GTEST_SKIP() << "a network namespace with a multicast route is not permitted here";
+    std::ofstream(folder_ / "short.yaml")
+        << "name: short\nduration_s: 0.3\nmodel: " NIGHTJAR_SOURCE_DIR
+           "/models/arena.xml\n"
+           "world: {start_from_tag_m: [-0.1, 0.05, 0.9]}\n";
+  }
+
+  /// Runs `source` with the two others, which are stopped by a signal each when it is done;
+  /// true when all ended as they should. Whatever happens, the namespace's first process
+  /// takes all others with it.
+  bool run_loop(const std::string& source) {
+    std::ofstream(folder_ / "loop.sh")
+        << kLoopback << " || exit 9\n"
+        << "nightjar='" NIGHTJAR_PROGRAM "'\n"
+        << "$nightjar reconstruct --lcm short.yaml --json >r.json 2>r.err & r=$!\n"
+        << "timeout 100 $nightjar " << source << " --json >s.json 2>s.err & s=$!\n"
+        << "sleep 0.3\n"  // the tracker comes late
+        << "$nightjar track short.yaml --json >t.json 2>t.err & t=$!\n"
+        << "wait $s; s=$?; kill -TERM $t; kill -INT $r\n"
+        << "wait $t; t=$?; wait $r; r=$?; echo \"$s $t $r\" >codes\n";
+    const std::string command =
+        fmt::format("cd '{}' && {} --pid --fork --kill-child timeout 120 sh loop.sh",
+                    folder_.path().string(), kNamespace);
+    return std::system(command.c_str()) == 0 && test::file_text(folder_ / "codes") == "0 0 0\n";
+  }
+
+  nlohmann::json report(const std::string& file) {
+    return nlohmann::json::parse(test::file_text(folder_ / file));
+  }
+
+  std::string errors() {
+    return test::file_text(folder_ / "s.err") + test::file_text(folder_ / "r.err") +
+           test::file_text(folder_ / "t.err");
+  }
+};
+
+TEST_F(ProcessesTest, ThreeProcessesInLockStepEstimateTheBitsOfOneAndSoDoesAReplay) {
+  ASSERT_EQ(run_program("run short.yaml --out one --no-video --record-events --quiet --json"), 1)
+      << err;  // it has no time to land
+  const std::string wanted = nlohmann::json::parse(out)["estimates_sha256"];
+  for (const char* source : {"simulate short.yaml", "replay one/run.lcm --lockstep"}) {
+    ASSERT_TRUE(run_loop(source)) << source << errors();
+    EXPECT_EQ(report("t.json")["estimates_sha256"], wanted) << source;
+    EXPECT_EQ(report("s.json")["steps"], 30) << source;  // 0.3 s, 100 a second
+    EXPECT_EQ(report("t.json")["messages_refused"], 0) << source;
+  }
+}
+
+TEST_F(ProcessesTest, FreeRunningALoopEndsAndReports) {
+  ASSERT_TRUE(run_loop("simulate short.yaml --free-running")) << errors();
+  for (const char* file : {"s.json", "r.json", "t.json"}) {
+    const nlohmann::json report = this->report(file);
+    for (const char* key : {"steps", "rate_hz", "latency_median_us", "latency_99_percent_us",
+                            "latency_max_us", "messages_lost", "steps_lost"})
+      EXPECT_TRUE(report.contains(key)) << file << ' ' << key;
+  }
+  EXPECT_GT(report("r.json")["steps"], 0);
+}
+
+TEST_F(ProcessesTest, BadInputIsOneLineAndExitCode2) {
+  EXPECT_EQ(run_program("simulate none.yaml"), 2);
+  expect_one_line("none.yaml");
+  EXPECT_EQ(run_program("track none.yaml"), 2);
+  expect_one_line("none.yaml");
+  EXPECT_EQ(run_program("replay none.aedat4"), 2);
+  expect_one_line("none.aedat4");
+  EXPECT_EQ(run_program("reconstruct --lcm"), 2);
+  expect_one_line("SCENARIO");
+  EXPECT_EQ(run_program("reconstruct --lcm short.yaml --out pictures"), 2);
+  expect_one_line("--lcm");
+  EXPECT_EQ(run_program("track short.yaml --lcm-url nosuch://"), 2);
+}
+
+}  // namespace
+}  // namespace nightjar::tools
