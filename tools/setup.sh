@@ -7,7 +7,7 @@ packages="g++ cmake ninja-build pkg-config libmujoco-dev libqhull-dev libosmesa6
   libopencv-dev libapriltag-dev libeigen3-dev liblcm-dev liblcm-bin libyaml-cpp-dev libcli11-dev
   nlohmann-json3-dev libfmt-dev libspdlog-dev libssl-dev libgtest-dev libgmock-dev
   libbenchmark-dev libflatbuffers-dev flatbuffers-compiler liblz4-dev libzstd-dev python3-numpy jq
-  gnuplot-nox"
+  gnuplot-nox iproute2"
 
 fail() {
   echo "setup: $*" >&2
