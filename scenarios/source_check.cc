@@ -6,8 +6,8 @@ void check_source(const Scenario& scenario, camera::SourceType wanted) {
   if (scenario.source.type == wanted) return;
   if (wanted == camera::SourceType::simulation)
     throw ScenarioError(
-        "source.type = caer, expected simulation: a camera is a process of its own, started "
-        "with `nightjar camera` (docs/hardware.md)");
+        "source.type = caer, expected simulation: no command reads a camera live yet "
+        "(docs/hardware.md)");
   throw ScenarioError("source.type = simulation, expected caer: a camera is to be named so");
 }
 
