@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/image.h"
-#include "sim/renderer.h"
+#include "sim/chase_view.h"
 
 namespace nightjar::scenarios {
 

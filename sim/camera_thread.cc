@@ -1,33 +1,27 @@
 #include "sim/camera_thread.h"
 
-#include <optional>
 #include <utility>
 
 namespace nightjar::sim {
 
-CameraThread::CameraThread(SimulatedCamera& camera) : camera_(camera), thread_([this] { run(); }) {}
-
-CameraThread::~CameraThread() {
-  {
-    const std::lock_guard lock(mutex_);
-    stopping_ = true;
-  }
-  changed_.notify_all();
-  thread_.join();
-}
+CameraThread::CameraThread(SimulatedCamera& camera)
+    : camera_(camera), worker_([this](const Picture& picture) { show(picture); }) {}
 
 core::Image<float>& CameraThread::next() {
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return drawn_ - exposed_ < kPictures; });
-  return pictures_[drawn_ % kPictures].luminance_lux;
+  next_ = &worker_.next();
+  return next_->luminance_lux;
 }
 
 void CameraThread::expose(core::Time t, bool ends_packet) {
+  next_->t = t;
+  next_->ends_packet = ends_packet;
+  worker_.start();
+}
+
+void CameraThread::fail(std::exception_ptr error) {
   {
     const std::lock_guard lock(mutex_);
-    pictures_[drawn_ % kPictures].t = t;
-    pictures_[drawn_ % kPictures].ends_packet = ends_packet;
-    ++drawn_;
+    if (!error_) error_ = std::move(error);
   }
   changed_.notify_all();
 }
@@ -41,27 +35,20 @@ CameraOutput CameraThread::take() {
   return output;
 }
 
-void CameraThread::run() {
-  std::unique_lock lock(mutex_);
-  while (true) {
-    changed_.wait(lock, [this] { return stopping_ || exposed_ < drawn_; });
-    if (stopping_) return;
-    const Picture& picture = pictures_[exposed_ % kPictures];
-    const bool failed = error_ != nullptr;
-    lock.unlock();
-    std::optional<CameraOutput> output;
-    std::exception_ptr error;
-    try {
-      if (!failed) camera_.expose(picture.t, picture.luminance_lux);
-      if (!failed && picture.ends_packet) output = {camera_.take_packet(), camera_.take_frames()};
-    } catch (...) {
-      error = std::current_exception();
-    }
-    lock.lock();
-    if (output) outputs_.push_back(std::move(*output));
-    if (error) error_ = error;
-    ++exposed_;
+void CameraThread::show(const Picture& picture) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (error_) return;
+  }
+  try {
+    camera_.expose(picture.t, picture.luminance_lux);
+    if (!picture.ends_packet) return;
+    CameraOutput output{camera_.take_packet(), camera_.take_frames()};
+    const std::lock_guard lock(mutex_);
+    outputs_.push_back(std::move(output));
     changed_.notify_all();
+  } catch (...) {
+    fail(std::current_exception());
   }
 }
 

@@ -1,17 +1,15 @@
 #pragma once
 
-#include <array>
 #include <condition_variable>
-#include <cstddef>
 #include <deque>
 #include <exception>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 #include "core/event.h"
 #include "core/image.h"
 #include "sim/simulated_camera.h"
+#include "sim/worker.h"
 
 namespace nightjar::sim {
 
@@ -27,19 +25,19 @@ struct CameraOutput {
 class CameraThread {
  public:
   explicit CameraThread(SimulatedCamera& camera);
-  ~CameraThread();
-  CameraThread(const CameraThread&) = delete;
-  CameraThread& operator=(const CameraThread&) = delete;
 
   /// The picture to draw next; waits while all of them are still to be exposed.
   core::Image<float>& next();
   /// Exposes the camera to the picture that next() gave, as of time `t`.
   void expose(core::Time t, bool ends_packet);
+  /// There will be no more pictures, for this reason: take() throws it, as what the camera
+  /// throws itself.
+  void fail(std::exception_ptr error);
 
   /// The earliest packet that was not taken yet; waits until its last picture is
-  /// exposed. After the packets that were complete when SimulatedCamera::expose threw,
-  /// throws that, every time. Once every packet is taken, and until the next expose(),
-  /// the camera itself may be looked at.
+  /// exposed. After the packets that were complete when SimulatedCamera::expose threw or
+  /// fail() was called, throws that, every time. Once every packet is taken, and until the next
+  /// expose(), the camera itself may be looked at.
   CameraOutput take();
 
  private:
@@ -49,21 +47,16 @@ class CameraThread {
     core::Image<float> luminance_lux;
   };
 
-  void run();
-
-  // With one picture being exposed, the second waits and the third is drawn.
-  static constexpr std::size_t kPictures = 3;
+  void show(const Picture& picture);
 
   SimulatedCamera& camera_;
-  std::array<Picture, kPictures> pictures_;
-  std::size_t drawn_ = 0;    ///< Pictures handed over so far.
-  std::size_t exposed_ = 0;  ///< Of those, exposed.
+  Picture* next_ = nullptr;  ///< The one being drawn.
   std::deque<CameraOutput> outputs_;
-  bool stopping_ = false;
   std::exception_ptr error_;
-  std::mutex mutex_;  ///< Of all from drawn_ on.
+  std::mutex mutex_;  ///< Of outputs_ and error_.
   std::condition_variable changed_;
-  std::thread thread_;  // last: it uses the others
+  // With one picture being exposed, the second waits and the third is drawn.
+  Worker<Picture, 3> worker_;  // last: it uses the others
 };
 
 }  // namespace nightjar::sim

@@ -21,30 +21,28 @@ Simulation::Simulation(const WorldConfig& world, const CameraConfig& camera,
                        const SensorConfig& sensor, const std::filesystem::path& model_file,
                        double illuminance_lux, std::uint64_t seed)
     : renderer_config_(world.renderer),
-      illuminance_lux_(illuminance_lux),
       packet_interval_(core::from_seconds(1e-3 * camera.packet_interval_ms)),
       world_(world, camera, model_file, seed, sensor.imu),
       camera_(sensor, world_.camera_model().size, illuminance_lux, seed),
-      camera_thread_(camera_) {
+      camera_thread_(camera_),
+      drawing_thread_(world_.renderer(), world_.scene(), illuminance_lux, camera_thread_) {
   if (packet_interval_ % world_.time_step() != core::Time(0))
     throw std::invalid_argument(
         fmt::format("camera.packet_interval_ms = {}, allowed multiples of the model's time step, "
                     "{} us",
                     camera.packet_interval_ms, world_.time_step().count()));
-  render(false);
+  look(false);
 }
 
-void Simulation::render(bool ends_packet) {
-  core::Image<float>& picture = drawing_ahead_([this]() -> auto& { return camera_thread_.next(); });
-  drawing_([&] { world_.draw(illuminance_lux_, picture); });
-  camera_thread_.expose(world_.now(), ends_packet);
+void Simulation::look(bool ends_packet) {
+  world_.look(drawing_thread_.next());
+  drawing_thread_.draw(world_.now(), ends_packet);
 }
 
 std::vector<core::StageTime> Simulation::stage_times() const {
-  std::vector<core::StageTime> times = {moving_.time(), bounding_.time(), drawing_.time(),
-                                        drawing_ahead_.time(), waiting_.time()};
-  const std::vector<core::StageTime> camera = camera_.stage_times();
-  times.insert(times.end(), camera.begin(), camera.end());
+  std::vector<core::StageTime> times = {moving_.time(), bounding_.time(), waiting_.time()};
+  for (const auto& more : {drawing_thread_.stage_times(), camera_.stage_times()})
+    times.insert(times.end(), more.begin(), more.end());
   return times;
 }
 
@@ -61,7 +59,7 @@ void Simulation::fly(const core::AttitudeSetpoint& setpoint) {
     });
     drawn_late_ += motion_px_s * core::seconds(due - before) > renderer_config_.max_motion_px;
     if (due == packet_end) note_world();  // before the camera can be done with the packet
-    render(due == packet_end);
+    look(due == packet_end);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "core/imu.h"
 #include "core/truth.h"
 #include "sim/camera_thread.h"
+#include "sim/drawing_thread.h"
 #include "sim/simulated_camera.h"
 #include "sim/world.h"
 
@@ -36,9 +37,9 @@ class Simulation {
   Simulation(const WorldConfig& world, const CameraConfig& camera, const SensorConfig& sensor,
              const std::filesystem::path& model_file, double illuminance_lux, std::uint64_t seed);
 
-  /// Flies under `setpoint` to the end of the next packet, drawing after each
-  /// render_interval() and at the packet's end (docs/decisions/0002). The camera may
-  /// still be at work on it afterwards (docs/decisions/0003).
+  /// Flies under `setpoint` to the end of the next packet, looking after each
+  /// render_interval() and at the packet's end (docs/decisions/0002). What was seen may
+  /// still be drawn and exposed afterwards (docs/decisions/0003).
   void fly(const core::AttitudeSetpoint& setpoint);
 
   /// What the earliest packet flown and not yet taken gave; waits for the camera. May
@@ -53,7 +54,7 @@ class Simulation {
   World& world() { return world_; }
   /// The camera, to look at once every packet is taken.
   const SimulatedCamera& camera() const { return camera_; }
-  std::uint64_t renders() const { return drawing_.time().calls; }
+  std::uint64_t renders() const { return drawing_thread_.drawn(); }
   /// Of them, those that came later than max_motion_px asks, a physics step after the
   /// one before.
   std::uint64_t drawn_late() const { return drawn_late_; }
@@ -61,24 +62,22 @@ class Simulation {
   std::vector<core::StageTime> stage_times() const;
 
  private:
-  void render(bool ends_packet);
+  void look(bool ends_packet);
   /// Keeps what the world gives at the end of a packet.
   void note_world();
 
   RendererConfig renderer_config_;
-  double illuminance_lux_;
   core::Time packet_interval_;
   World world_;
   SimulatedCamera camera_;
   std::uint64_t drawn_late_ = 0;
   core::StageTimer moving_{"step physics", "world"};
   core::StageTimer bounding_{"bound motion", "world"};
-  core::StageTimer drawing_{"draw", "world"};
-  core::StageTimer drawing_ahead_{"wait for camera", "world"};
   core::StageTimer waiting_{"wait for camera", "handling"};
   std::mutex mutex_;
   std::deque<SimulationStep> flown_;  ///< Without what the camera gives; under mutex_.
-  CameraThread camera_thread_;        // last: it uses the camera
+  CameraThread camera_thread_;        // uses the camera
+  DrawingThread drawing_thread_;      // last: it uses the world's renderer and the other thread
 };
 
 }  // namespace nightjar::sim

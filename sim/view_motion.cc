@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "sim/renderer.h"
+#include "sim/view.h"
 
 namespace nightjar::sim {
 namespace {
@@ -43,7 +43,7 @@ Eigen::Vector3d visible_turn(const mjModel& model, int geom) {
 ViewMotion::ViewMotion(const Scene& scene) {
   const mjModel& model = *scene.model();
   for (int geom = 0; geom < model.ngeom; ++geom)
-    if (model.geom_group[geom] == Renderer::kSensorGroup)
+    if (model.geom_group[geom] == View::kSensorGroup)
       parts_.push_back(
           {geom, model.geom_bodyid[geom], half_size_m(model, geom), visible_turn(model, geom)});
 }

@@ -11,7 +11,7 @@ namespace nightjar::sim {
 /// How fast what a scene's sensor camera sees can move across its picture.
 class ViewMotion {
  public:
-  /// Looks at the geoms that the sensor is shown (Renderer::draw), as they are now.
+  /// Looks at the geoms that the sensor is shown (View::look), as they are now.
   explicit ViewMotion(const Scene& scene);
 
   /// An upper bound (px/s) for all of them at this moment.

@@ -165,8 +165,8 @@ void World::draw_chase(core::Image<Rgb>& view) {
   if (!chase_started_) chase_azimuth_deg_ = wanted_deg;
   chase_started_ = true;
   chase_azimuth_deg_ += 0.02 * std::remainder(wanted_deg - chase_azimuth_deg_, 360.0);
-  renderer_.draw_view(scene_, {middle.x(), middle.y(), middle.z()}, 2.6, chase_azimuth_deg_, -25.0,
-                      view);
+  if (!chase_ || chase_->size() != view.size()) chase_.emplace(scene_, view.size());
+  chase_->draw(scene_, {middle.x(), middle.y(), middle.z()}, 2.6, chase_azimuth_deg_, -25.0, view);
 }
 
 }  // namespace nightjar::sim

@@ -10,6 +10,7 @@
 #include "core/camera_model.h"
 #include "core/truth.h"
 #include "sim/autopilot.h"
+#include "sim/chase_view.h"
 #include "sim/config.h"
 #include "sim/imu.h"
 #include "sim/quadrotor.h"
@@ -54,12 +55,17 @@ class World {
   /// An upper bound of the image motion (px/s) of all the camera sees at this moment.
   double image_motion_px_s() const;
 
-  /// What the UAV's camera sees (Renderer::draw).
+  const Scene& scene() const { return scene_; }
+  /// Draws what look() saw; not meant for others once DrawingThread has it.
+  Renderer& renderer() { return renderer_; }
+  /// What the UAV's camera sees now, to be drawn by renderer().
+  void look(View& view) { view.look(scene_, camera_); }
+  /// Both at once.
   void draw(double white_lux, core::Image<float>& luminance_lux) {
     renderer_.draw(scene_, camera_, white_lux, luminance_lux);
   }
 
-  /// A colour view over both vehicles, from behind the UGV.
+  /// A colour view over both vehicles, from behind the UGV, in the size of `view`.
   void draw_chase(core::Image<Rgb>& view);
 
   const std::string& renderer_description() const { return renderer_.description(); }
@@ -80,6 +86,7 @@ class World {
   std::array<int, 4> foot_geoms_;
   core::CameraModel camera_model_;
   Renderer renderer_;
+  std::optional<ChaseView> chase_;  ///< From the first draw_chase() on.
   ViewMotion view_motion_;
   core::Time time_step_;
   core::Time now_{};

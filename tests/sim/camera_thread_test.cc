@@ -72,6 +72,17 @@ TEST(CameraThread, packets_complete_before_the_error_come_out_first) {
   EXPECT_THROW(thread.take(), std::invalid_argument);
 }
 
+TEST(CameraThread, tells_why_there_are_no_more_pictures) {
+  SimulatedCamera camera = make_camera();
+  CameraThread thread(camera);
+  draw(0, thread.next());
+  thread.expose(1ms, true);
+  EXPECT_EQ(thread.take().packet.end, 1ms);
+  thread.fail(std::make_exception_ptr(std::runtime_error("out of paint")));
+  thread.fail(std::make_exception_ptr(std::logic_error("later")));
+  EXPECT_THROW(thread.take(), std::runtime_error);
+}
+
 TEST(CameraThread, may_go_with_pictures_still_to_be_exposed) {
   SimulatedCamera camera = make_camera();
   CameraThread thread(camera);

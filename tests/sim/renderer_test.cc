@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <thread>
 
 #include "tests/support/scratch_folder.h"
 #include "tests/support/sim_scene.h"
@@ -117,6 +118,59 @@ TEST_F(RendererTest, LightsThatWouldBeCutOffAreRefused) {
     EXPECT_NE(std::string(e.what()).find("add up to 2.05, allowed 0 to 2"), std::string::npos)
         << e.what();
   }
+}
+
+TEST_F(RendererTest, ColoursGiveTheLuminanceOfWhatPeopleSee) {
+  for (const char* type : {"2d", "cube"}) {
+    std::string model = kModel;
+    model.replace(model.find("<worldbody>"), 11,
+                  std::string("<asset><texture name=\"paint\" type=\"") + type +
+                      "\" builtin=\"flat\" rgb1=\"0.8 0.3 0.1\" width=\"16\" height=\"16\"/>"
+                      "<material name=\"painted\" texture=\"paint\" rgba=\"0.5 0.9 0.4 1\"/>"
+                      "</asset><worldbody>");
+    model.replace(model.find("rgba=\"1 1 1 1\"/>\n    <camera"), 16, "material=\"painted\"/>");
+    model.replace(model.find("rgba=\"0.2 0.2 0.2 1\""), 20, "rgba=\"0.9 0.1 0.4 1\"");
+    std::ofstream(scratch_ / "painted.xml") << model;
+    Scene scene(scratch_ / "painted.xml");
+    core::Image<float> luminance_lux;
+    Renderer renderer(scene, kSize, 1);
+    renderer.draw(scene, scene.id(mjOBJ_CAMERA, "down"), kWhite_lux, luminance_lux);
+    // Rec. 709 of texture times material; texels have 8 bits.
+    const double painted = 0.2126 * 0.8 * 0.5 + 0.7152 * 0.3 * 0.9 + 0.0722 * 0.1 * 0.4;
+    EXPECT_NEAR(luminance_lux(15, 12) / kWhite_lux, painted, 1.0 / 255) << type;
+    const double floor = 0.2126 * 0.9 + 0.7152 * 0.1 + 0.0722 * 0.4;
+    EXPECT_NEAR(luminance_lux(48, 35) / kWhite_lux, floor, 1e-4) << type;
+  }
+}
+
+TEST_F(RendererTest, ColouredLightIsRefused) {
+  std::string model = kModel;
+  model.replace(model.find("0.75 0.75 0.75"), 14, "0.75 0.70 0.75");
+  std::ofstream(scratch_ / "pink.xml") << model;
+  Scene scene(scratch_ / "pink.xml");
+  try {
+    Renderer renderer(scene, kSize, 1);
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& e) {
+    EXPECT_NE(std::string(e.what()).find("(0.75 0.7 0.75), allowed grey"), std::string::npos)
+        << e.what();
+  }
+}
+
+TEST_F(RendererTest, AViewIsDrawnAsItWasWhenLookedAt) {
+  Scene arena(test::arena());
+  Renderer renderer(arena, kSize, 1);
+  View view(arena);
+  const int dvs = arena.id(mjOBJ_CAMERA, "dvs");
+  core::Image<float> at_once, later;
+  renderer.draw(arena, dvs, kWhite_lux, at_once);
+  view.look(arena, dvs);
+  arena.place("uav", Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3)));
+  arena.settle();
+  std::thread([&] { renderer.draw(view, kWhite_lux, later); }).join();  // and by whom
+  EXPECT_EQ(at_once, later);
+  renderer.draw(arena, dvs, kWhite_lux, later);
+  EXPECT_NE(at_once, later);
 }
 
 TEST_F(RendererTest, OneGoesWithoutHarmToAnother) {
