@@ -50,8 +50,7 @@ bool Aedat31Reader::next(RecordingPart& part) {
   part.clear();
   while (read_packet()) {
     decode(part);
-    if (!part.events.empty() || !part.frames.empty() || !part.imu.empty() || !part.triggers.empty())
-      return true;
+    if (!part.empty()) return true;
   }
   return false;
 }

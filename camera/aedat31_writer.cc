@@ -130,6 +130,7 @@ void Aedat31Writer::write(const RecordingPart& part) {
     append(events_, kValid);
     append(events_, low_bits(sample.t));
     const RawImu raw = from_camera_axes(sample);
+    if (!fits_floats(sample)) ++not_carried_.imu_rounded;
     for (const float value : raw.acceleration_g) append(events_, value);
     for (const float value : raw.rate_deg_s) append(events_, value);
     append(events_, sample.temperature_c);

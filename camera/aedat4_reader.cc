@@ -189,8 +189,7 @@ bool Aedat4Reader::next(RecordingPart& part) {
     } catch (const std::invalid_argument& error) {
       intake_.fault(&RecordingFaults::packets_damaged, error.what());
     }
-    if (!part.events.empty() || !part.frames.empty() || !part.imu.empty() || !part.triggers.empty())
-      return true;
+    if (!part.empty()) return true;
   }
   return false;
 }

@@ -146,6 +146,7 @@ void Aedat4Writer::write_imu(std::span<const RecordedImu> samples) {
   written.reserve(samples.size());
   for (const RecordedImu& sample : samples) {
     const RawImu raw = from_camera_axes(sample);
+    if (!fits_floats(sample)) ++not_carried_.imu_rounded;
     written.push_back(aedat4::CreateImu(builder, sample.t.count(), sample.temperature_c,
                                         raw.acceleration_g[0], raw.acceleration_g[1],
                                         raw.acceleration_g[2], raw.rate_deg_s[0], raw.rate_deg_s[1],

@@ -41,14 +41,18 @@ void take_line(std::string_view line, AedatHeader& header) {
     const std::size_t blank = std::min(sensor->rfind(' '), sensor->size());
     const core::Resolution size = parse_size(sensor->substr(std::min(blank + 1, sensor->size())));
     if (size == core::Resolution{}) return;
-    header = {printable_text(sensor->substr(0, blank), kMostNameLength), size};
+    header.camera = printable_text(sensor->substr(0, blank), kMostNameLength);
+    header.size = size;
   }
   if (header.size != core::Resolution{}) return;
   std::optional<std::string_view> name = value_of(line, "# AEChip:");
   if (line.starts_with("#Source ")) name = value_of(line.substr(line.find(':') + 1), "");
   if (!name) return;
   if (header.camera.empty()) header.camera = printable_text(*name, kMostNameLength);
-  if (const auto size = sensor_of(*name)) header = {printable_text(*name, kMostNameLength), *size};
+  if (const auto size = sensor_of(*name)) {
+    header.camera = printable_text(*name, kMostNameLength);
+    header.size = *size;
+  }
 }
 
 core::Resolution checked_size(core::Resolution told, std::optional<core::Resolution> size,
@@ -88,6 +92,7 @@ AedatHeader read_aedat_header(ByteStream& stream, std::string_view end,
     if (format && *format != "RAW")
       throw std::invalid_argument(stream.at(begin, "another format than RAW"));
     take_line(line, header);
+    header.imu_scale.take(line);
   }
   header.size = checked_size(header.size, size, stream);
   return header;

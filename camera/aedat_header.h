@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "camera/aedat2_imu.h"
 #include "camera/byte_stream.h"
 #include "core/event.h"
 
@@ -13,6 +14,7 @@ namespace nightjar::camera {
 struct AedatHeader {
   std::string camera;
   core::Resolution size;
+  ImuScale imu_scale;  ///< From the settings that jAER keeps in AEDAT 2.0.
 };
 
 /// Reads the lines that begin with '#': up to and with `end`, or while there are any where

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <string>
+
 #include "camera/caer_config.h"
+#include "camera/mount_config.h"
 
 namespace nightjar::camera {
 
@@ -13,11 +16,17 @@ inline constexpr core::Choices<SourceType, 2> kSourceTypes{
 /// libcaer.
 struct SourceConfig {
   SourceType type = SourceType::simulation;
+  /// A real camera's, a file that `nightjar calibrate` wrote; in a scenario file relative to
+  /// that file. Empty: the pinhole that the scenario's section camera describes.
+  std::string intrinsics;
+  MountConfig mount;  ///< Of a real camera; the simulator's is its model's.
   CaerConfig caer;
 
   template <class Visitor>
   void visit(Visitor& v) {
     v.choice("type", type, kSourceTypes);
+    v.field("intrinsics", intrinsics);
+    v.section("mount", mount);
     v.section("caer", caer);
   }
 };

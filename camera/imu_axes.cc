@@ -33,4 +33,10 @@ RawImu from_camera_axes(const core::ImuSample& sample) {
   return raw;
 }
 
+bool fits_floats(const core::ImuSample& sample) {
+  const RecordedImu again = to_camera_axes(sample.t, from_camera_axes(sample), 0);
+  return again.omega_camera_rad_s == sample.omega_camera_rad_s &&
+         again.specific_force_camera_m_s2 == sample.specific_force_camera_m_s2;
+}
+
 }  // namespace nightjar::camera

@@ -19,4 +19,7 @@ RecordedImu to_camera_axes(core::Time t, const RawImu& raw, float temperature_c)
 /// The reverse: exact for what came out of a file, else rounded to floats.
 RawImu from_camera_axes(const core::ImuSample& sample);
 
+/// Whether it is exact.
+bool fits_floats(const core::ImuSample& sample);
+
 }  // namespace nightjar::camera

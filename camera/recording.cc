@@ -39,6 +39,10 @@ void RecordingPart::clear() {
   triggers.clear();
 }
 
+bool RecordingPart::empty() const {
+  return events.empty() && frames.empty() && imu.empty() && triggers.empty();
+}
+
 std::unique_ptr<RecordingReader> open_recording(const std::filesystem::path& path,
                                                 std::optional<core::Resolution> size) {
   auto in = std::make_unique<std::ifstream>(path, std::ios::binary);

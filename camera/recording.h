@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <istream>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -47,11 +48,12 @@ struct RecordingPart {
   std::vector<Trigger> triggers;
 
   void clear();
+  bool empty() const;
 };
 
 /// What could not be used as it stood; reading went on.
 struct RecordingFaults {
-  std::uint64_t bytes_lost = 0;        ///< Of a truncated or damaged end.
+  std::uint64_t bytes_lost = 0;        ///< Truncated or damaged.
   std::uint64_t packets_unknown = 0;   ///< Of a type we do not read, or a second stream.
   std::uint64_t packets_damaged = 0;   ///< With content that is not what it should be.
   std::uint64_t events_outside = 0;    ///< Beyond the sensor's size; frames too.
@@ -68,7 +70,7 @@ class RecordingReader {
  public:
   virtual ~RecordingReader() = default;
 
-  /// "AEDAT4", "AEDAT 3.1", "AEDAT 2.0" or "text".
+  /// "AEDAT4", "AEDAT 3.1", "AEDAT 2.0", "text" or "LCM log".
   virtual std::string format() const = 0;
 
   /// As the file calls it ("DAVIS346_00000002"); empty when it does not say.
@@ -88,6 +90,10 @@ class RecordingReader {
 
   /// So far.
   virtual const RecordingFaults& faults() const = 0;
+
+  /// What the file holds besides and a recording has no place for, by the name it has there,
+  /// and how often so far: the other messages in the log of a flight.
+  virtual std::map<std::string, std::uint64_t> others() const { return {}; }
 };
 
 /// Opens a recording; its content, not its name, tells the format: AEDAT4, AEDAT 3.1,

@@ -1,11 +1,9 @@
 #include "camera/recording_writer.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <stdexcept>
 #include <utility>
-#include <vector>
 
 #include "camera/aedat31_writer.h"
 #include "camera/aedat4_writer.h"
@@ -40,7 +38,7 @@ class TextRecordingWriter : public RecordingWriter {
 
 }  // namespace
 
-std::string NotCarried::text() const {
+std::vector<std::string> NotCarried::things() const {
   std::vector<std::string> things;
   const auto add = [&](std::uint64_t count, const char* what) {
     if (count > 0) things.push_back(fmt::format("{} {}", count, what));
@@ -50,7 +48,8 @@ std::string NotCarried::text() const {
   add(imu, "IMU samples");
   add(triggers, "triggers");
   add(frames_rounded, "frames' bits beyond 8");
-  return fmt::format("{}", fmt::join(things, ", "));
+  add(imu_rounded, "IMU samples' digits beyond those of a float");
+  return things;
 }
 
 void check_recording_name(const std::string& name, const std::filesystem::path& path) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "camera/packet_compression.h"
 #include "camera/recording.h"
@@ -23,10 +24,11 @@ struct NotCarried {
   std::uint64_t frames = 0;
   std::uint64_t frames_rounded = 0;  ///< To 8 bits.
   std::uint64_t imu = 0;
+  std::uint64_t imu_rounded = 0;  ///< To floats.
   std::uint64_t triggers = 0;
 
-  /// One line, empty when all was carried.
-  std::string text() const;
+  /// "3 frames", one of each kind; none when all was carried.
+  std::vector<std::string> things() const;
 };
 
 /// Writes a recording part by part; the file has its name only after finish(): see PartFile.

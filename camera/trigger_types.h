@@ -7,6 +7,8 @@ namespace nightjar::camera {
 // libcaer's numbers of special events.
 inline constexpr int kTimestampWrap = 0;
 inline constexpr int kTimestampReset = 1;
+inline constexpr int kExternalRising = 2;
+inline constexpr int kExternalFalling = 3;
 inline constexpr int kExternalPulse = 4;
 inline constexpr int kMostTriggerType = 127;  // seven bits in AEDAT 3.1
 

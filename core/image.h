@@ -51,7 +51,7 @@ struct Picture {
 struct ApsFrame {
   Time exposure_begin{};
   Time exposure_end{};
-  int bits = 8;               ///< 8 or 10.
+  int bits = 8;               ///< 8, 10 or, in recordings, 16.
   Image<std::uint16_t> gray;  ///< 0 to 2^bits - 1.
 };
 

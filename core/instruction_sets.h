@@ -5,7 +5,7 @@ namespace nightjar::core {
 /// Those beyond the plain one that the vector code is compiled for and this processor runs.
 struct InstructionSets {
   bool avx2 = false;    ///< And fma.
-  bool avx512 = false;  ///< f, bw, dq and vl, and fma.
+  bool avx512 = false;  ///< f, bw, cd, dq and vl, and fma.
 };
 
 inline InstructionSets instruction_sets() {
@@ -13,8 +13,8 @@ inline InstructionSets instruction_sets() {
   const bool fma = __builtin_cpu_supports("fma") != 0;
   return {.avx2 = fma && __builtin_cpu_supports("avx2"),
           .avx512 = fma && __builtin_cpu_supports("avx512f") &&
-                    __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
-                    __builtin_cpu_supports("avx512vl")};
+                    __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd") &&
+                    __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")};
 #else
   return {};
 #endif

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "esi/best_instructions.h"
 #include "esi/fast_math.h"
 
 namespace nightjar::esi {
@@ -154,16 +155,20 @@ void ComplementaryFilter::draw_unfiltered(std::uint32_t now_us,
   if (has_frame_) {
     const Display display(config_.black, config_.white);
     const Anchor* anchors = anchors_.data();
+    with_best_instructions([=]() __attribute__((always_inline)) {
 #pragma GCC ivdep
-    for (std::size_t i = 0; i < count; ++i)
-      out[i] = display(decayed(cells[i].log, anchors[i].log, anchors[i].log2_per_us,
-                               to_float(now_us - cells[i].t_us)));
+      for (std::size_t i = 0; i < count; ++i)
+        out[i] = display(decayed(cells[i].log, anchors[i].log, anchors[i].log2_per_us,
+                                 to_float(now_us - cells[i].t_us)));
+    });
   } else {
     const Display display(config_.high_pass_black, config_.high_pass_white);
     const auto log2_per_us = static_cast<float>(config_.high_pass_hz * kLog2PerRadian_us);
+    with_best_instructions([=]() __attribute__((always_inline)) {
 #pragma GCC ivdep
-    for (std::size_t i = 0; i < count; ++i)
-      out[i] = display(decayed(cells[i].log, 0, log2_per_us, to_float(now_us - cells[i].t_us)));
+      for (std::size_t i = 0; i < count; ++i)
+        out[i] = display(decayed(cells[i].log, 0, log2_per_us, to_float(now_us - cells[i].t_us)));
+    });
   }
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 
+#include "esi/best_instructions.h"
 #include "esi/fast_math.h"
 
 namespace nightjar::esi {
@@ -162,9 +163,11 @@ void DoubleIntegral::draw(core::Time, core::Image<std::uint8_t>& gray) {
   const float* count = count_.data();
   std::uint8_t* out = gray.pixels().data();
   const std::size_t pixels = start_log2_.size();
+  with_best_instructions([=]() __attribute__((always_inline)) {
 #pragma GCC ivdep
-  for (std::size_t i = 0; i < pixels; ++i)
-    out[i] = to_gray(255.0f * fast_exp2(start[i] + step_log2 * count[i]));
+    for (std::size_t i = 0; i < pixels; ++i)
+      out[i] = to_gray(255.0f * fast_exp2(start[i] + step_log2 * count[i]));
+  });
 }
 
 }  // namespace nightjar::esi

@@ -34,8 +34,11 @@ void EsiNet::limit_ages(std::uint32_t now_us, std::uint32_t most_us) {
 }
 
 void EsiNet::integrate(std::span<const PackedEvent> events) {
-  best_memory_variant().integrate(events, cells_.data());
+  EventRun run(events);
+  integrate_run(run);
 }
+
+void EsiNet::integrate_run(EventRun& run) { best_memory_variant().integrate(run, cells_.data()); }
 
 const ChannelImage& EsiNet::features(core::Time t) {
   quantise_features(low_us(t));

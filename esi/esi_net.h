@@ -29,6 +29,7 @@ class EsiNet final : public Reconstructor {
 
  private:
   void integrate(std::span<const PackedEvent> events) override;
+  void integrate_run(EventRun& run) override;
   void draw(core::Time t, core::Image<std::uint8_t>& gray) override;
   void clear(core::Time start) override;
   void limit_ages(std::uint32_t now_us, std::uint32_t most_us) override;

@@ -19,9 +19,9 @@ struct SumCell {
 /// How a sum goes back to 0 with the time dt since the pixel's last event.
 enum class Leak {
   linear,        ///< times max(1 - k dt, 0)
-  power,         ///< times max(1 - k dt, 0)^b
-  smooth_power,  ///< the same for 1 < b <= 8, where a polynomial will do
-  root_power,    ///< the same for 1/2 <= b < 1, with a polynomial of the square root
+  power,         ///< times max(1 - k dt, 0)^b; for b < 1, beyond which there is
+  smooth_power,  ///< the same for 1 < b <= 8, where one polynomial will do
+  steep_power,   ///< the same for b > 8, as the fourth power of one with b/4
   exponential,   ///< times 2^(-k dt)
   slope,         ///< by k dt, as far as 0
 };
@@ -30,8 +30,8 @@ enum class Leak {
 /// is lost, 1 - d: near d = 1, where most events are, a float holds it far more finely, and
 /// it is exactly 0 at dt = 0.
 struct LeakySum {
-  /// `rate_hz` is k, `power` is b and matters to Leak::power alone, which becomes linear,
-  /// smooth_power or root_power where b allows.
+  /// `rate_hz` is k, `power` is b, at most 32, and matters to Leak::power alone, which becomes
+  /// linear, smooth_power or steep_power where k and b allow.
   LeakySum(Leak leak, double rate_hz, double power = 1);
 
   Leak leak;
@@ -41,10 +41,10 @@ struct LeakySum {
   float greatest = 0;           ///< At least 0, above `least`.
 
   float rate_per_us;
-  std::uint32_t gone_us;               ///< Powers: the least dt at which nothing is left.
-  float power;                         ///< b.
-  std::array<float, 6> log_terms{};    ///< Power: b log2(1 + f)/f in powers of f.
-  std::array<float, 8> power_terms{};  ///< Of the polynomial, in rising powers.
+  std::uint32_t gone_us;                  ///< Powers: the least dt at which nothing is left.
+  std::array<float, 8> power_terms{};     ///< Of the polynomial, in rising powers; power: six.
+  std::array<float, 5> octave_factors{};  ///< Power: 2^(-b 2^i).
+  std::array<float, 32> octaves{};        ///< Power: 2^(-b i), as the product of those.
 };
 
 /// What is done to cells, for one instruction set.

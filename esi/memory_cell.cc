@@ -74,15 +74,22 @@ const Ints& ints(const std::int32_t* lanes) { return *reinterpret_cast<const Int
   reinterpret_cast<Ints&>(cell) = reinterpret_cast<Ints>(sum) | time;
 }
 
-[[gnu::always_inline]] inline void integrate_body(std::span<const PackedEvent> events,
-                                                  MemoryCell* cells) {
-  constexpr std::size_t kAhead = 40;  // events; cells come from the second or third cache
-  const std::size_t ahead = events.size() > kAhead ? events.size() - kAhead : 0;
-  for (std::size_t i = 0; i < ahead; ++i) {
-    __builtin_prefetch(cells + events[i + kAhead].pixel(), 1);
-    take(events[i], cells);
+/// A block's cells, which come from the second or third cache, are on their way while the
+/// block before it is taken.
+[[gnu::always_inline]] inline void integrate_body(EventRun& events, MemoryCell* cells) {
+  constexpr std::size_t kBlock = 64;
+  EventRun run = events;
+  auto block = run.next(kBlock);
+  while (!block.empty()) {
+    const auto next = run.next(kBlock);  // no longer than `block`
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      __builtin_prefetch(cells + next[i].pixel(), 1);
+      take(block[i], cells);
+    }
+    for (const PackedEvent& e : block.subspan(next.size())) take(e, cells);
+    block = next;
   }
-  for (const PackedEvent& e : events.subspan(ahead)) take(e, cells);
+  events = run;
 }
 
 [[gnu::always_inline]] inline void feature(const MemoryCell& cell, std::uint32_t now_us,
@@ -116,16 +123,13 @@ const Ints& ints(const std::int32_t* lanes) { return *reinterpret_cast<const Int
   feature(cells[x], now_us, to + kPixelFeatures);
 }
 
-void integrate_plain(std::span<const PackedEvent> events, MemoryCell* cells) {
-  integrate_body(events, cells);
-}
+void integrate_plain(EventRun& events, MemoryCell* cells) { integrate_body(events, cells); }
 void features_plain(const MemoryCell* cells, int width, std::uint32_t now_us, std::int16_t* to) {
   features_body(cells, width, now_us, to);
 }
 
 #if defined(__x86_64__)
-[[gnu::target("avx2")]] void integrate_avx2(std::span<const PackedEvent> events,
-                                            MemoryCell* cells) {
+[[gnu::target("avx2")]] void integrate_avx2(EventRun& events, MemoryCell* cells) {
   integrate_body(events, cells);
 }
 [[gnu::target("avx2")]] void features_avx2(const MemoryCell* cells, int width, std::uint32_t now_us,

@@ -2,10 +2,9 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include "esi/packed_event.h"
+#include "esi/event_run.h"
 
 namespace nightjar::esi {
 
@@ -44,8 +43,8 @@ inline constexpr int kFeatureOne = 512;
 /// What is done to cells, for one instruction set.
 struct MemoryVariant {
   const char* name;
-  /// Takes events in order. A time between a pixel's events is below 2^31 us.
-  void (*integrate)(std::span<const PackedEvent> events, MemoryCell* cells);
+  /// Takes events to the run's end. A time between a pixel's events is below 2^31 us.
+  void (*integrate)(EventRun&, MemoryCell* cells);
   /// The kPixelFeatures of `width` cells side by side, for blocks two pixels wide and two
   /// high: those of cell x begin at to[x / 2 * 4 * kPixelFeatures + x % 2 * kPixelFeatures].
   /// An odd last cell stands in for its missing neighbour. A sum v, decayed up to `now_us`

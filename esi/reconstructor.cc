@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/config_check.h"
+#include "esi/prefetch.h"
 
 namespace nightjar::esi {
 namespace {
@@ -19,6 +20,17 @@ constexpr std::size_t kPackBlock = 1024;
 /// Those taken one by one where something is unusual.
 constexpr std::size_t kSingly = 64;
 
+/// Differences of times within it do not overflow, nor what packed events, which tell the
+/// lower 32 bits of their time alone, could ever add to it.
+constexpr core::Time kFarthest{Reconstructor::kFarthest_us};
+
+void check_time(const char* what, core::Time t) {
+  if (t < -kFarthest || t > kFarthest)
+    throw std::invalid_argument(std::string(what) + " at " + std::to_string(t.count()) +
+                                " us, allowed " + std::to_string(-kFarthest.count()) + " to " +
+                                std::to_string(kFarthest.count()) + " us");
+}
+
 [[noreturn]] void refuse(core::Time t, std::uint32_t x, std::uint32_t y, core::Time last,
                          core::Resolution size) {
   if (t < last)
@@ -29,7 +41,23 @@ constexpr std::size_t kSingly = 64;
                               std::to_string(size.height_px - 1) + ")");
 }
 
+/// Those that any value has: found sooner than the greatest value.
+unsigned any_bits(std::span<const std::uint16_t> values) {
+  constexpr std::size_t kLine = 32;
+  unsigned bits = 0;
+  for (; !values.empty(); values = values.subspan(std::min(values.size(), kLine))) {
+    prefetch_ahead(values.data());
+    std::uint16_t together = 0;
+    for (const std::uint16_t value : values.first(std::min(values.size(), kLine)))
+      together |= value;
+    bits |= together;
+  }
+  return bits;
+}
+
 void check_frame(const core::ApsFrame& frame, core::Resolution size, core::Time earliest_begin) {
+  check_time("frame", frame.exposure_begin);
+  check_time("frame", frame.exposure_end);
   if (frame.gray.size() != size)
     throw std::invalid_argument("frame of " + std::to_string(frame.gray.width()) + "x" +
                                 std::to_string(frame.gray.height()) + ", allowed " +
@@ -47,10 +75,9 @@ void check_frame(const core::ApsFrame& frame, core::Resolution size, core::Time 
     throw std::invalid_argument("frame of " + std::to_string(frame.bits) +
                                 " bits, allowed 8 or 10");
   const auto pixels = frame.gray.pixels();
-  const int most = std::ranges::max(pixels);
-  if (most >= 1 << frame.bits)
-    throw std::invalid_argument("frame value " + std::to_string(most) + ", allowed 0 to " +
-                                std::to_string((1 << frame.bits) - 1));
+  if (any_bits(pixels) >> frame.bits != 0)
+    throw std::invalid_argument("frame value " + std::to_string(std::ranges::max(pixels)) +
+                                ", allowed 0 to " + std::to_string((1 << frame.bits) - 1));
 }
 
 }  // namespace
@@ -61,6 +88,7 @@ Reconstructor::Reconstructor(core::Resolution size) : size_(size) {
 }
 
 void Reconstructor::reset(core::Time start) {
+  check_time("start", start);
   last_ = limited_ = start;
   frame_begin_ = core::Time::min();
   clear(start);
@@ -96,11 +124,12 @@ void Reconstructor::take_block(std::span<const core::Event> events) {
   bool bad = false;
   for (std::size_t i = 0; i < events.size(); ++i) {
     const core::Event& e = events[i];
+    prefetch_ahead(&e);
     packed[i] = pack(e, size_.width_px);
     bad |= e.t < earliest || e.x >= size_.width_px || e.y >= size_.height_px;
     earliest = e.t;
   }
-  if (!bad && events.back().t - limited_ < kMostAge) {
+  if (!bad && events.back().t <= kFarthest && events.back().t - limited_ < kMostAge) {
     integrate(std::span(packed).first(events.size()));
     last_ = events.back().t;
     return;
@@ -109,6 +138,7 @@ void Reconstructor::take_block(std::span<const core::Event> events) {
     const core::Event& e = events[i];
     if (e.t < last_ || e.x >= size_.width_px || e.y >= size_.height_px)
       refuse(e.t, e.x, e.y, last_, size_);
+    check_time("event", e.t);
     take_one(e.t, packed[i]);
   }
 }
@@ -150,6 +180,7 @@ void Reconstructor::render(core::Time t, core::Picture& picture) {
   if (t < last_)
     throw std::invalid_argument("picture at " + std::to_string(t.count()) + " us, allowed from " +
                                 std::to_string(last_.count()) + " us on");
+  check_time("picture", t);
   picture.t = t;
   if (picture.gray.size() != size_) picture.gray = core::Image<std::uint8_t>(size_);
   draw(std::min(t, last_ + kMostAge), picture.gray);

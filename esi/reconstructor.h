@@ -21,6 +21,10 @@ class Reconstructor {
   /// Pixels forget how long ago something was beyond this: 17.9 minutes.
   static constexpr std::uint32_t kMostAge_us = 1u << 30;
 
+  /// Whole times (not those of packed events) further than this from 0 are refused by every
+  /// call that is given one: 73,000 years.
+  static constexpr std::int64_t kFarthest_us = std::int64_t{1} << 61;
+
   /// Throws std::invalid_argument for a side outside 1 to core::kMostSide_px.
   explicit Reconstructor(core::Resolution size);
   virtual ~Reconstructor() = default;

@@ -5,6 +5,7 @@
 #include "core/imu.h"
 #include "core/state.h"
 #include "core/truth.h"
+#include "msg/camera_notes.h"
 #include "msg/step_mark.h"
 #include "msg/tag_detections.h"
 
@@ -27,6 +28,11 @@ inline constexpr Channel<core::AttitudeSetpoint> kAttitudeSetpoint{"NIGHTJAR_ATT
 inline constexpr Channel<core::MissionTransition> kMissionTransition{"NIGHTJAR_MISSION_TRANSITION"};
 inline constexpr Channel<core::Truth> kTruth{"NIGHTJAR_TRUTH"};
 inline constexpr Channel<StepMark> kStep{"NIGHTJAR_STEP"};
+// In logs of recordings:
+inline constexpr Channel<SensorNote> kSensor{"NIGHTJAR_SENSOR"};
+inline constexpr Channel<TriggerNote> kTrigger{"NIGHTJAR_TRIGGER"};
+inline constexpr Channel<ReadoutNote> kApsReadout{"NIGHTJAR_APS_READOUT"};
+inline constexpr Channel<TemperatureNote> kImuTemperature{"NIGHTJAR_IMU_TEMPERATURE"};
 /// Between processes event packets travel in pieces (msg/event_parts.h), here.
 inline constexpr const char* kEventParts = "NIGHTJAR_EVENT_PARTS";
 

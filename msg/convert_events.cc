@@ -3,6 +3,7 @@
 #include <nightjar_lcm/event_packet_t.hpp>
 
 #include "msg/convert.h"
+#include "msg/event_words.h"
 #include "msg/lcm_bytes.h"
 
 namespace nightjar::msg {
@@ -15,15 +16,15 @@ constexpr int kTimeShift = 33;
 constexpr int kOnShift = 32;
 constexpr int kYShift = 16;
 
-std::int64_t pack(const core::Event& event, core::Time begin) {
+constexpr std::size_t kCountOffset = 8 + 8 + 8;  // fingerprint, time_us, begin_us
+
+std::uint64_t pack(const core::Event& event, core::Time begin) {
   const auto since_begin_us = static_cast<std::uint64_t>((event.t - begin).count());
-  return static_cast<std::int64_t>(since_begin_us << kTimeShift |
-                                   std::uint64_t{event.on} << kOnShift |
-                                   std::uint64_t{event.y} << kYShift | event.x);
+  return since_begin_us << kTimeShift | std::uint64_t{event.on} << kOnShift |
+         std::uint64_t{event.y} << kYShift | event.x;
 }
 
-core::Event unpack(std::int64_t word, core::Time begin) {
-  const auto bits = static_cast<std::uint64_t>(word);
+core::Event unpack(std::uint64_t bits, core::Time begin) {
   return {.t = begin + core::Time(static_cast<std::int64_t>(bits >> kTimeShift)),
           .x = static_cast<std::uint16_t>(bits),
           .y = static_cast<std::uint16_t>(bits >> kYShift),
@@ -57,21 +58,25 @@ Bytes encode(const core::EventPacket& packet) {
   nightjar_lcm::event_packet_t message;
   message.time_us = to_us(packet.end);
   message.begin_us = to_us(packet.begin);
-  message.n = static_cast<std::int32_t>(packet.events.size());
-  message.event.reserve(packet.events.size());
-  for (const core::Event& event : packet.events) message.event.push_back(pack(event, packet.begin));
-  return to_bytes(message);
+  message.n = 0;
+  Bytes bytes = with_room_for_words(message, packet.events.size());
+  std::uint8_t* word = bytes.data() + bytes.size() - packet.events.size() * kWordBytes;
+  for (const core::Event& event : packet.events) {
+    put_word(pack(event, packet.begin), word);
+    word += kWordBytes;
+  }
+  return bytes;
 }
 
 template <>
 core::EventPacket decode(std::span<const std::uint8_t> bytes) {
-  constexpr std::size_t kCountOffset = 8 + 8 + 8;  // fingerprint, time_us, begin_us
-  check_array_fits("event_packet_t", bytes, kCountOffset, sizeof(std::int64_t));
-  const auto message = from_bytes<nightjar_lcm::event_packet_t>(bytes);
+  const auto message = read_head<nightjar_lcm::event_packet_t>(bytes, kCountOffset);
   check_interval(message.begin_us, message.time_us);
   core::EventPacket packet{core::Time(message.begin_us), core::Time(message.time_us), {}};
-  packet.events.reserve(message.event.size());
-  for (const std::int64_t word : message.event) packet.events.push_back(unpack(word, packet.begin));
+  const std::span<const std::uint8_t> words = words_of(bytes, kCountOffset);
+  packet.events.reserve(words.size() / kWordBytes);
+  for (std::size_t i = 0; i < words.size(); i += kWordBytes)
+    packet.events.push_back(unpack(get_word(&words[i]), packet.begin));
   check_events(packet);
   return packet;
 }

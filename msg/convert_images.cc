@@ -32,8 +32,9 @@ core::Image<T> get_image(const Lcm& message) {
 }
 
 void check_frame(const core::ApsFrame& frame) {
-  if (frame.bits != 8 && frame.bits != 10)
-    throw std::invalid_argument(fmt::format("aps_frame_t: bits = {}, allowed 8, 10", frame.bits));
+  if (frame.bits != 8 && frame.bits != 10 && frame.bits != 16)
+    throw std::invalid_argument(
+        fmt::format("aps_frame_t: bits = {}, allowed 8, 10, 16", frame.bits));
   const int greatest = (1 << frame.bits) - 1;
   for (const std::uint16_t gray : frame.gray.pixels())
     if (gray > greatest)

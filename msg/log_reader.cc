@@ -2,49 +2,124 @@
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cstdio>
 #include <fstream>
-#include <lcm/lcm-cpp.hpp>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 namespace nightjar::msg {
+namespace {
 
-struct LogReader::Impl {
-  explicit Impl(const std::filesystem::path& path) : log(path.string(), "r") {}
+constexpr std::size_t kMarkBytes = 4;
 
-  lcm::LogFile log;
-  std::uintmax_t size_bytes = 0;
-};
-
-LogReader::LogReader(std::filesystem::path path) : impl_(std::make_unique<Impl>(path)) {
-  std::error_code error;
-  impl_->size_bytes = std::filesystem::file_size(path, error);
-  if (!impl_->log.good() || error)
-    throw std::invalid_argument(fmt::format("{}: cannot be read", path.string()));
+/// Most significant byte first.
+std::uint32_t u32(const char* bytes) {
+  std::uint32_t value = 0;
+  for (std::size_t i = 0; i < sizeof(value); ++i)
+    value = value << 8 | static_cast<unsigned char>(bytes[i]);
+  return value;
 }
 
-LogReader::~LogReader() = default;
+std::unique_ptr<std::istream> open_file(const std::filesystem::path& path) {
+  auto in = std::make_unique<std::ifstream>(path, std::ios::binary);
+  std::error_code ignored;
+  if (!*in || !std::filesystem::is_regular_file(path, ignored))
+    throw std::invalid_argument(fmt::format("{}: cannot be read", path.string()));
+  return in;
+}
+
+}  // namespace
+
+LogReader::LogReader(const std::filesystem::path& path)
+    : LogReader(open_file(path), path.string()) {}
+
+LogReader::LogReader(std::unique_ptr<std::istream> in, std::string name)
+    : in_(std::move(in)), name_(std::move(name)) {
+  in_->seekg(0, std::ios::end);
+  const std::streamoff length = in_->tellg();
+  in_->seekg(0);
+  if (!*in_ || length < 0) throw std::invalid_argument(fmt::format("{}: cannot be read", name_));
+  length_ = static_cast<std::uint64_t>(length);
+}
+
+/// `count` bytes from `at` on, if the file has them.
+bool LogReader::read(std::uint64_t at, std::size_t count, char* to) {
+  if (at + count > length_) return false;
+  if (static_cast<std::uint64_t>(in_->tellg()) != at) in_->seekg(static_cast<std::streamoff>(at));
+  in_->read(to, static_cast<std::streamsize>(count));
+  if (!*in_) throw std::invalid_argument(fmt::format("{}: byte {}: cannot be read", name_, at));
+  return true;
+}
+
+/// Goes on to the next mark from `next_` on, counting what lies before it.
+bool LogReader::find_mark() {
+  std::array<char, kMarkBytes> four;
+  begin_ = next_;
+  if (!read(begin_, four.size(), four.data())) {
+    lost_ += length_ - begin_;
+    begin_ = next_ = length_;
+    return false;
+  }
+  std::uint32_t last = u32(four.data());
+  for (std::uint64_t end = begin_ + kMarkBytes; last != kLogMark; ++end) {
+    char byte = 0;
+    if (!read(end, 1, &byte)) {
+      lost_ += length_ - next_;
+      begin_ = next_ = length_;
+      return false;
+    }
+    last = last << 8 | static_cast<unsigned char>(byte);
+    begin_ = end + 1 - kMarkBytes;
+  }
+  lost_ += begin_ - next_;
+  return true;
+}
+
+/// Of the message whose mark is at `begin_`, if it can be one: behind it the next message
+/// begins, or the file ends.
+std::optional<LogReader::Head> LogReader::read_head() {
+  std::array<char, kLogHeadBytes> bytes;
+  if (!read(begin_, bytes.size(), bytes.data())) return std::nullopt;
+  const Head head{u32(bytes.data() + 20), u32(bytes.data() + 24)};
+  if (head.channel_bytes < 1 || head.channel_bytes > kMostChannelBytes ||
+      head.data_bytes > kMostLogDataBytes)
+    return std::nullopt;
+  const std::uint64_t end = begin_ + kLogHeadBytes + head.channel_bytes + head.data_bytes;
+  if (end > length_) return std::nullopt;
+  std::array<char, kMarkBytes> four;
+  const bool another = read(end, four.size(), four.data());
+  if (another && u32(four.data()) != kLogMark) return std::nullopt;
+  return head;
+}
 
 std::optional<Message> LogReader::next() {
-  const lcm::LogEvent* event = impl_->log.readNextEvent();
-  if (!event) return std::nullopt;
-  const auto* data = static_cast<const std::uint8_t*>(event->data);
-  return Message{event->channel, Bytes(data, data + event->datalen)};
+  while (find_mark()) {
+    const auto head = read_head();
+    if (!head) {
+      lost_ += kMarkBytes;
+      next_ = begin_ + kMarkBytes;
+      continue;
+    }
+    Message message;
+    message.channel.resize(head->channel_bytes);
+    message.bytes.resize(head->data_bytes);
+    read(begin_ + kLogHeadBytes, head->channel_bytes, message.channel.data());
+    next_ = begin_ + kLogHeadBytes + head->channel_bytes;
+    read(next_, head->data_bytes, reinterpret_cast<char*>(message.bytes.data()));
+    next_ += head->data_bytes;
+    return message;
+  }
+  return std::nullopt;
 }
 
 double LogReader::progress() const {
-  const long at = std::ftell(impl_->log.getFilePtr());
-  if (at < 0 || impl_->size_bytes == 0) return 1;
-  return static_cast<double>(at) / static_cast<double>(impl_->size_bytes);
+  return length_ == 0 ? 1.0 : static_cast<double>(next_) / static_cast<double>(length_);
 }
 
 bool is_log(const std::filesystem::path& path) {
-  constexpr std::array<char, 4> kMagic = {'\xed', '\xa1', '\xda', '\x01'};  // lcm eventlog.c
-  std::array<char, 4> begin{};
+  std::array<char, kMarkBytes> begin{};
   std::ifstream file(path, std::ios::binary);
-  return file.read(begin.data(), begin.size()) && begin == kMagic;
+  return file.read(begin.data(), begin.size()) && u32(begin.data()) == kLogMark;
 }
 
 }  // namespace nightjar::msg

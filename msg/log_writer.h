@@ -2,10 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <span>
 #include <string>
+#include <utility>
 
+#include "core/part_file.h"
 #include "msg/bus.h"
 #include "msg/channels.h"
 
@@ -13,13 +14,11 @@ namespace nightjar::msg {
 
 /// Writes messages to an ordinary LCM log (lcm-logplayer, lcm-spy). Each is
 /// stamped with its own time, never with the wall clock: equal runs give equal
-/// logs. The log is called NAME.part.EXT until finish(); without finish() it
-/// is removed, so a log under its own name is complete.
+/// logs. The log has its name only after finish(): see core::PartFile.
 class LogWriter {
  public:
-  /// Throws std::runtime_error when the file cannot be created.
-  explicit LogWriter(std::filesystem::path path);
-  ~LogWriter();
+  /// Throws where core::PartFile does.
+  explicit LogWriter(std::filesystem::path path) : file_(std::move(path)) {}
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
 
@@ -32,7 +31,9 @@ class LogWriter {
                             std::span<const std::uint8_t> bytes) { write(name, bytes); });
   }
 
-  /// Appends one message. Throws std::runtime_error when the disk does not take it.
+  /// Appends one message. Throws std::invalid_argument for one that LCM would not read
+  /// (a channel of no or of over 999 bytes, no time, over 64 MiB), std::runtime_error when
+  /// the disk does not take it.
   void write(const std::string& channel, std::span<const std::uint8_t> bytes);
 
   /// Gives the log its own name. Throws std::runtime_error when not everything
@@ -40,8 +41,9 @@ class LogWriter {
   void finish();
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  core::PartFile file_;
+  std::uint64_t messages_ = 0;
+  bool finished_ = false;
 };
 
 }  // namespace nightjar::msg

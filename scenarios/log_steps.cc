@@ -33,6 +33,7 @@ bool LogSteps::close_with(std::vector<msg::Bytes> packets) {
 bool LogSteps::read_step() {
   step_.clear();
   while (auto message = log_.next()) {
+    if (repeats_.is_repeat(*message)) continue;
     if (message->channel == msg::kEventParts) {
       parts_.push_back(std::move(message->bytes));
     } else if (message->channel == msg::kStep.name) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "msg/log_reader.h"
+#include "scenarios/repeat_filter.h"
 #include "scenarios/step_reader.h"
 
 namespace nightjar::scenarios {
@@ -25,6 +26,7 @@ class LogSteps : public StepReader {
   bool close_with(std::vector<msg::Bytes> packets);
 
   msg::LogReader log_;
+  RepeatFilter repeats_;
   std::vector<msg::Message> step_;  // read ahead; empty at the end
   std::vector<msg::Bytes> parts_;
 };

@@ -98,6 +98,9 @@ Run::Run(const Scenario& scenario, const RunOptions& options)
   save(scenario, folder_.part(kScenarioFile));
   folder_.complete(kScenarioFile);
   record_channels(log_, bus_, options.record_events);
+  if (options.record_events)  // then the log is a recording too
+    log_.write(msg::kSensor.name, msg::encode(msg::SensorNote{
+                                      {}, simulation_.world().camera_model().size, "Nightjar"}));
   bus_.subscribe(msg::kMissionTransition, [this](const core::MissionTransition& transition) {
     scorer_.add(transition);
     phase_ = transition.to;

@@ -9,6 +9,7 @@
 #include "camera/recording.h"
 #include "scenarios/choice_text.h"
 #include "scenarios/reconstruct.h"
+#include "scenarios/recordings.h"
 #include "scenarios/text_table.h"
 
 namespace nightjar::scenarios {
@@ -37,7 +38,7 @@ MethodScore score(const std::filesystem::path& path, const core::Image<std::uint
   reconstruct_options.reconstructor.method = method;
   reconstruct_options.rate_hz = options.rate_hz;
   reconstruct_options.until_s = options.until_s;
-  const auto recording = camera::open_recording(path, reference.size());
+  const auto recording = open_recording(path, reference.size());
   const Reconstruction result = reconstruct(*recording, reconstruct_options, [](auto&&...) {});
   if (result.faults.events_outside > 0)
     throw std::invalid_argument(fmt::format("{}: events outside {}x{}, the reference's size",

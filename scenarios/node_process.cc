@@ -20,6 +20,7 @@ NodeProcess::NodeProcess(msg::Bus& wire, Setup setup)
       held_(setup_.inputs.size()) {
   for (const Sending& input : setup_.inputs)
     receivers_.emplace_back(wire, input.sender, input.channels);
+  make_node();
 }
 
 void NodeProcess::serve(std::chrono::milliseconds at_most) {
@@ -45,7 +46,7 @@ void NodeProcess::receive() {
     }
 }
 
-void NodeProcess::begin_run(std::int64_t run) {
+void NodeProcess::make_node() {
   node_.reset();
   inside_ = std::make_unique<msg::Bus>();
   node_ = setup_.make_node(*inside_);
@@ -53,6 +54,10 @@ void NodeProcess::begin_run(std::int64_t run) {
     inside_->subscribe_bytes(channel, [this, channel](std::span<const std::uint8_t> bytes) {
       sender_.add(channel, bytes);
     });
+}
+
+void NodeProcess::begin_run(std::int64_t run) {
+  if (run_) make_node();  // the first is there, so that no packet waits for it
   held_.assign(held_.size(), std::nullopt);
   answered_.reset();
   run_ = run;

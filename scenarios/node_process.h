@@ -25,11 +25,11 @@ class NodeProcess {
     /// Of them the source comes first, and the last is what the node answers to.
     std::vector<Sending> inputs;
     Sending output;
-    /// Makes the node on a bus; called anew for each run of a source.
+    /// Makes the node on a bus; called anew for each run of a source, the first time at once.
     std::function<std::shared_ptr<void>(msg::Bus&)> make_node;
   };
 
-  /// `wire` must outlive it.
+  /// `wire` must outlive it. Throws what `setup.make_node` does.
   NodeProcess(msg::Bus& wire, Setup setup);
 
   /// Waits `at_most` so long for messages and deals with all there are. Messages that
@@ -42,6 +42,7 @@ class NodeProcess {
   void receive();
   void take(std::size_t input, msg::ReceivedStep step);
   void take_in_lock_step(std::size_t input, msg::ReceivedStep step);
+  void make_node();
   void begin_run(std::int64_t run);
   void hand_over(const msg::ReceivedStep& step);
   void answer(const msg::StepMark& mark);

@@ -2,11 +2,20 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 
+#include "camera/event_source.h"
 #include "scenarios/latency_histogram.h"
 
 namespace nightjar::scenarios {
+
+/// What a source that reads a camera says of it.
+struct CameraReport {
+  std::string name;
+  bool connected = true;
+  camera::SourceCounts counts;
+};
 
 /// What a process says of itself, over the last second or over all its time.
 struct ProcessReport {
@@ -14,7 +23,7 @@ struct ProcessReport {
   std::uint64_t steps = 0;  ///< Event packets dealt with.
   double elapsed_s = 0;     ///< From the first of them on.
   /// From the source's having the packet to this process's being done with it (a source:
-  /// to the answer).
+  /// to the answer, where it hears any).
   LatencyHistogram latency;
   std::uint64_t messages_lost = 0;   ///< On the way to this process.
   std::uint64_t steps_lost = 0;      ///< Likewise, whole steps.
@@ -24,6 +33,7 @@ struct ProcessReport {
   std::uint64_t refused = 0;         ///< Messages that could not be used.
   std::string first_refusal;         ///< Why the first of them could not, else empty.
   std::string estimates_sha256;      ///< Of the run so far (EstimatesHash), else empty.
+  std::optional<CameraReport> camera;
 
   double rate_hz() const { return elapsed_s > 0 ? static_cast<double>(steps) / elapsed_s : 0; }
 };

@@ -4,11 +4,23 @@
 
 #include "msg/channels.h"
 #include "scenarios/estimates_hash.h"
+#include "scenarios/intrinsics.h"
+#include "scenarios/mount.h"
 #include "scenarios/reconstruction_node.h"
 #include "scenarios/tracker_node.h"
 #include "sim/world.h"
 
 namespace nightjar::scenarios {
+namespace {
+
+Eigen::Isometry3d mounting(const Scenario& scenario) {
+  if (scenario.source.type == camera::SourceType::caer) return T_body_camera(scenario.source.mount);
+  const sim::World world(scenario.world, scenario.camera, scenario.model,
+                         static_cast<std::uint64_t>(scenario.seed), scenario.sensor.imu);
+  return world.T_body_camera();
+}
+
+}  // namespace
 
 NodeProcess::Setup reconstruction_process(const esi::ReconstructorConfig& config,
                                           core::Resolution size) {
@@ -20,10 +32,8 @@ NodeProcess::Setup reconstruction_process(const esi::ReconstructorConfig& config
 }
 
 NodeProcess::Setup tracker_process(const Scenario& scenario, std::string& estimates_sha256) {
-  const sim::World world(scenario.world, scenario.camera, scenario.model,
-                         static_cast<std::uint64_t>(scenario.seed), scenario.sensor.imu);
-  const auto make_node = [config = scenario.tracker, camera = world.camera_model(),
-                          T_body_camera = world.T_body_camera(), &estimates_sha256](msg::Bus& bus) {
+  const auto make_node = [config = scenario.tracker, camera = camera_model(scenario),
+                          T_body_camera = mounting(scenario), &estimates_sha256](msg::Bus& bus) {
     auto hash = std::make_shared<EstimatesHash>();
     estimates_sha256 = hash->hex();
     bus.subscribe(msg::kTargetEstimate, [hash, &estimates_sha256](const core::TargetEstimate& e) {

@@ -9,6 +9,7 @@
 
 #include "core/config_check.h"
 #include "esi/make_network.h"
+#include "esi/make_reconstructor.h"
 #include "scenarios/choice_text.h"
 #include "scenarios/reconstructor_feed.h"
 #include "tracker/tag_detector.h"
@@ -21,12 +22,6 @@ namespace {
 constexpr core::Time kMostPause = std::chrono::minutes(1);
 constexpr double kMostSeconds = 1e9;
 
-/// Where not, unfit frames are no matter to complain about.
-bool uses_frames(esi::Method method) {
-  using enum esi::Method;
-  return method == complementary_filter || method == edi || method == fedi;
-}
-
 class Reconstructing {
  public:
   Reconstructing(camera::RecordingReader& recording, const ReconstructOptions& options,
@@ -36,7 +31,7 @@ class Reconstructing {
         take_(take),
         reconstructor_(esi::make_any_reconstructor(options.reconstructor, recording.size())),
         feed_(*reconstructor_),
-        uses_frames_(uses_frames(options.reconstructor.method)) {
+        uses_frames_(esi::uses_frames(options.reconstructor.method)) {
     if (options.detector) detector_.emplace(*options.detector);
   }
 
@@ -65,7 +60,7 @@ class Reconstructing {
   camera::RecordingPart part_;
   std::optional<core::ApsFrame> frame_before_;  ///< The newest that ends before it begins.
   core::Picture picture_;
-  bool uses_frames_;
+  bool uses_frames_;  ///< Else unfit frames are no matter to complain about.
   bool begun_ = false, ended_ = false;
   core::Time begin_{}, until_ = core::Time::max(), last_{};
   std::int64_t next_ = 1;  ///< Which picture is due next.

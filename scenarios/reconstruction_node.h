@@ -12,7 +12,7 @@
 namespace nightjar::scenarios {
 
 /// Event packets and frames of the active pixels in, a picture at the end of each packet
-/// out. A frame acts with the packet that its exposure ends in, or the next after it came.
+/// out; the first packet begins with an empty one. A frame acts with the packet that its exposure ends in, or the next after it came.
 /// Acts within Bus::dispatch() and knows neither who sends nor who listens.
 class ReconstructionNode {
  public:
@@ -25,6 +25,7 @@ class ReconstructionNode {
   std::unique_ptr<esi::Reconstructor> reconstructor_;
   ReconstructorFeed feed_;
   core::Picture picture_;
+  bool begun_ = false;
   core::StageTimer reconstructing_{"reconstruct", "handling"};
 };
 

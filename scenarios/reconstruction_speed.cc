@@ -6,6 +6,7 @@
 #include "esi/esi_reference.h"
 #include "esi/leaky_sum.h"
 #include "esi/make_network.h"
+#include "esi/make_reconstructor.h"
 #include "scenarios/choice_text.h"
 
 namespace nightjar::scenarios {
@@ -27,17 +28,21 @@ double median(std::vector<double> values) {
 class MethodSubject : public SpeedSubject {
  public:
   MethodSubject(const esi::ReconstructorConfig& config, core::Resolution size)
-      : reconstructor_(esi::make_any_reconstructor(config, size)) {}
+      : reconstructor_(esi::make_any_reconstructor(config, size)),
+        uses_frames_(esi::uses_frames(config.method)) {}
 
   void restart() override { reconstructor_->reset(); }
   void take(std::span<const esi::PackedEvent> events) override { reconstructor_->process(events); }
-  void take(const core::ApsFrame& frame) override { reconstructor_->add_frame(frame); }
+  void take(const core::ApsFrame& frame) override {
+    if (uses_frames_) reconstructor_->add_frame(frame);
+  }
   void draw(core::Time t) override { reconstructor_->render(t, picture_); }
 
  protected:
   std::unique_ptr<esi::Reconstructor> reconstructor_;
 
  private:
+  bool uses_frames_;
   core::Picture picture_;
 };
 

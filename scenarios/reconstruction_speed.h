@@ -38,7 +38,8 @@ std::unique_ptr<SpeedSubject> bound_subject(core::Resolution size);
 
 /// Events a second, in CPU time of this thread, through a workload from its start packet by
 /// packet, for about `most_s` or up to its end, whichever is first; with a picture after
-/// every packet or without any. Handing over frames counts.
+/// every packet or without any. Handing over frames counts, to the methods that use them; the
+/// others would only check them, which is no work on events.
 double measure_rate_hz(SpeedSubject& subject, const EventWorkload& workload, bool pictures,
                        double most_s);
 

@@ -2,8 +2,24 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
+
+#include "camera/gray_level.h"
 
 namespace nightjar::scenarios {
+namespace {
+
+constexpr int kMostBits = 10;  // that esi::Reconstructor::add_frame() takes
+
+}  // namespace
+
+void ReconstructorFeed::add_frame(core::ApsFrame frame) {
+  if (frame.bits > kMostBits) {
+    frame.gray = camera::with_bits(std::move(frame.gray), frame.bits, kMostBits);
+    frame.bits = kMostBits;
+  }
+  frames_.push_back(std::move(frame));
+}
 
 void ReconstructorFeed::advance(std::span<const core::Event> events, core::Time until) {
   for (; !frames_.empty() && frames_.front().exposure_end <= until; frames_.pop_front()) {

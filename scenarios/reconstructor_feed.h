@@ -18,8 +18,9 @@ class ReconstructorFeed {
  public:
   explicit ReconstructorFeed(esi::Reconstructor& reconstructor) : reconstructor_(reconstructor) {}
 
-  /// Held back until advance() reaches its end. Frames come in the order they were taken.
-  void add_frame(core::ApsFrame frame) { frames_.push_back(std::move(frame)); }
+  /// Held back until advance() reaches its end. Frames come in the order they were taken;
+  /// of more than 10 bits, which a recording may have, the upper 10 are used.
+  void add_frame(core::ApsFrame frame);
 
   /// Takes the events since the call before, all up to `until` included, and the frames that
   /// end by then. Throws std::invalid_argument as Reconstructor::process() does; a frame

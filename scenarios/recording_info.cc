@@ -101,6 +101,7 @@ RecordingInfo inspect(camera::RecordingReader& recording,
     on_progress(recording.progress());
   }
   info.faults = recording.faults();
+  info.others = recording.others();
   return info;
 }
 
@@ -132,6 +133,7 @@ std::string to_json(const RecordingInfo& info) {
                                        {"frames", frames},
                                        {"imu", imu},
                                        {"triggers", info.triggers},
+                                       {"others", info.others},
                                        {"faults", json_of(info.faults)}};
   return json.dump(2) + '\n';
 }
@@ -151,6 +153,8 @@ std::string to_table(const RecordingInfo& info) {
                                                          rate_hz(info.imu_samples, info.imu))
                                            : "none");
   table += row("triggers", info.triggers > 0 ? std::to_string(info.triggers) : "none");
+  for (const auto& [channel, messages] : info.others)
+    table += row("besides", fmt::format("{} messages {}", messages, channel));
   return table + row("faults", info.faults.any() ? fault_text(info.faults) : "none");
 }
 
@@ -160,7 +164,7 @@ std::string fault_text(const camera::RecordingFaults& faults) {
   const auto add = [&](std::uint64_t count, const char* what) {
     if (count > 0) counts.push_back(fmt::format("{} {}", count, what));
   };
-  add(faults.bytes_lost, "bytes lost at the end");
+  add(faults.bytes_lost, "bytes lost");
   add(faults.packets_unknown, "packets of unknown type");
   add(faults.packets_damaged, "damaged packets");
   add(faults.events_outside, "events or frames off the sensor");

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -34,6 +35,7 @@ struct RecordingInfo {
   std::uint64_t imu_samples = 0;
   std::optional<Span> imu;
   std::uint64_t triggers = 0;
+  std::map<std::string, std::uint64_t> others;  ///< See RecordingReader::others().
   camera::RecordingFaults faults;
 
   /// All events over their duration; 0 where that is none.

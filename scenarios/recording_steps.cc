@@ -55,8 +55,7 @@ std::optional<core::Time> RecordingSteps::next(msg::Bus& bus) {
   for (const auto& sample : take_until(waiting_.imu, end, &camera::RecordedImu::t))
     bus.publish<core::ImuSample>(msg::kImu, sample);
   for (const auto& frame : take_until(waiting_.frames, end, &camera::RecordedFrame::exposure_end))
-    if (frame.bits == 8 || frame.bits == 10)  // the others do not travel, see aps_frame_t
-      bus.publish<core::ApsFrame>(msg::kApsFrame, frame);
+    bus.publish<core::ApsFrame>(msg::kApsFrame, frame);
   bus.publish(msg::kEvents, {begin_, end, take_until(waiting_.events, end, &core::Event::t)});
   return begin_ = end;
 }

@@ -7,6 +7,8 @@
 
 #include "core/config_check.h"
 #include "scenarios/consistency.h"
+#include "scenarios/intrinsics.h"
+#include "scenarios/mount.h"
 #include "scenarios/reconstruct_settings.h"
 #include "scenarios/yaml_reader.h"
 #include "scenarios/yaml_writer.h"
@@ -30,6 +32,17 @@ bool is_file(const fs::path& path) {
 std::string no_model(const std::string& model) {
   return model.empty() ? "model is not set, expected an MJCF file"
                        : fmt::format("model = {}, no such file", shown_file(model));
+}
+
+// Names the file, which is meant from the folder `from`, as from `to`.
+void move_intrinsics(Scenario& scenario, const fs::path& from, const fs::path& to) {
+  std::string& file = scenario.source.intrinsics;
+  if (!file.empty()) file = fs::proximate(from / file, to).string();
+}
+
+// The simulator flies in it; a camera has the world itself.
+bool needs_model(const Scenario& scenario) {
+  return scenario.source.type == camera::SourceType::simulation;
 }
 
 // The pixels that the preset stands for, which the file itself does not hold. Without
@@ -58,10 +71,11 @@ Scenario parse(const std::string& text, const fs::path& path) {
   scenario.visit(reader);
   reader.finish();
   const fs::path model = path.parent_path() / scenario.model;
-  if (scenario.model.empty() || !is_file(model))
+  if (needs_model(scenario) && (scenario.model.empty() || !is_file(model)))
     throw ScenarioError(place_of("model", root, file) + ": " + no_model(scenario.model));
-  scenario.model = fs::proximate(model).string();
+  if (!scenario.model.empty()) scenario.model = fs::proximate(model).string();
   move_weights(scenario.reconstructor, path.parent_path(), fs::current_path());
+  move_intrinsics(scenario, path.parent_path(), fs::current_path());
   try {
     check(scenario);
   } catch (const std::invalid_argument& error) {  // a default, or values that do not fit
@@ -77,14 +91,18 @@ void check(const Scenario& scenario) {
     throw ScenarioError(error.what());
   }
   check_consistency(scenario);
-  if (!is_file(scenario.model)) throw ScenarioError(no_model(scenario.model));
+  check_intrinsics(scenario);
+  check_mount(scenario);
+  if (needs_model(scenario) && !is_file(scenario.model))
+    throw ScenarioError(no_model(scenario.model));
 }
 
 void save(const Scenario& scenario, const fs::path& path) {
   Scenario copy = scenario;
   const fs::path folder = fs::absolute(path).parent_path();
-  copy.model = fs::proximate(scenario.model, folder).string();
+  if (!copy.model.empty()) copy.model = fs::proximate(copy.model, folder).string();
   move_weights(copy.reconstructor, fs::current_path(), folder);
+  move_intrinsics(copy, fs::current_path(), folder);
   std::ofstream stream(path, std::ios::binary);
   stream << to_yaml(copy);
   if (copy.sensor.preset != sim::SensorPreset::custom) stream << pixel_comment(copy);

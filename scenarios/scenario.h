@@ -22,8 +22,8 @@ struct Scenario {
   int seed = 1;                  ///< Of every random stream.
   double duration_s = 62.0;      ///< The run ends here at the latest.
   double illuminance_lux = 5.0;  ///< On the ground.
-  /// The MJCF scene. In a file: relative to that file. In the struct, after
-  /// load(): relative to the working directory.
+  /// The MJCF scene that the simulator flies in. In a file: relative to that file. In the
+  /// struct, after load(): relative to the working directory.
   std::string model;
   nightjar::camera::SourceConfig source;
   sim::WorldConfig world;
@@ -61,7 +61,7 @@ Scenario load(const std::filesystem::path& path);
 Scenario parse(const std::string& text, const std::filesystem::path& path);
 
 /// Throws ScenarioError unless every value is in range, all fit each other
-/// (check_consistency) and the model exists.
+/// (check_consistency, check_intrinsics, check_mount) and the simulator's model exists.
 void check(const Scenario& scenario);
 
 /// Writes every value, with its range as a comment, so that load(path) gives the

@@ -6,9 +6,10 @@ void check_source(const Scenario& scenario, camera::SourceType wanted) {
   if (scenario.source.type == wanted) return;
   if (wanted == camera::SourceType::simulation)
     throw ScenarioError(
-        "source.type = caer, expected simulation: no command reads a camera live yet "
-        "(docs/hardware.md)");
-  throw ScenarioError("source.type = simulation, expected caer: a camera is to be named so");
+        "source.type = caer, expected simulation: nightjar camera reads a camera, which "
+        "nightjar reconstruct --lcm and nightjar track go with (docs/hardware.md)");
+  throw ScenarioError(
+      "source.type = simulation, expected caer: nightjar simulate flies the simulator");
 }
 
 }  // namespace nightjar::scenarios

@@ -1,6 +1,7 @@
 #include "scenarios/source_link.h"
 
 #include <algorithm>
+#include <cassert>
 #include <stdexcept>
 #include <utility>
 
@@ -21,14 +22,14 @@ std::int64_t new_run() {
 
 }  // namespace
 
-SourceLink::SourceLink(msg::Bus& wire, Sending answers, Options options)
+SourceLink::SourceLink(msg::Bus& wire, std::optional<Sending> answers, Options options)
     : wire_(wire),
-      answers_(std::move(answers)),
       options_(std::move(options)),
       sender_(wire, kFromSource.sender),
-      receiver_(wire, answers_.sender, answers_.channels),
       meter_(kFromSource.sender),
       run_(new_run()) {
+  assert(answers || !options_.lock_step);
+  if (answers) receiver_.emplace(wire, answers->sender, answers->channels);
   for (const std::string& channel : kFromSource.channels)
     inside_.subscribe_bytes(channel, [this, channel](std::span<const std::uint8_t> bytes) {
       sender_.add(channel, bytes);
@@ -48,9 +49,10 @@ void SourceLink::receive() {
 
 /// Whether the answer to the step of time `wanted` was among them.
 bool SourceLink::take_answers(std::optional<core::Time> wanted) {
+  if (!receiver_) return false;
   bool came = false;
   receive();
-  while (const auto step = receiver_.next()) {
+  while (const auto step = receiver_->next()) {
     const msg::StepMark& mark = step->mark;
     if (mark.run != run_ || (options_.lock_step && (came || mark.t != wanted))) continue;
     for (const msg::Message& message : step->messages)
@@ -59,8 +61,8 @@ bool SourceLink::take_answers(std::optional<core::Time> wanted) {
     meter_.add_latency(steady_now() - mark.origin);
   }
   receive();
-  meter_.total().messages_lost = receiver_.counts().messages_lost;
-  meter_.total().steps_lost = receiver_.counts().steps_lost;
+  meter_.total().messages_lost = receiver_->counts().messages_lost;
+  meter_.total().steps_lost = receiver_->counts().steps_lost;
   return came;
 }
 
@@ -84,15 +86,16 @@ void SourceLink::wait_until_due(core::Time t) {
   }
 }
 
-void SourceLink::exchange(core::Time t) {
+void SourceLink::exchange(core::Time t, std::optional<core::Time> origin) {
   inside_.dispatch();
   msg::StepMark mark;
   mark.t = t;
   mark.run = run_;
   mark.lock_step = options_.lock_step;
-  mark.origin = steady_now();
-  sender_.send(std::move(mark));
+  mark.origin = origin.value_or(steady_now());
+  sender_.send(mark);
   meter_.count_step();
+  if (!receiver_) meter_.add_latency(steady_now() - mark.origin);
   options_.while_waiting();
   if (!options_.lock_step) return;
   core::Time repeat_at = steady_now() + kRepeatAfter;

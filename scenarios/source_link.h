@@ -22,8 +22,10 @@ class SourceLink {
     std::function<void()> while_waiting = [] {};
   };
 
-  /// `answers` come from the process that closes the loop. `wire` must outlive it.
-  SourceLink(msg::Bus& wire, Sending answers, Options options);
+  /// `answers` come from the process that closes the loop; without them nothing is heard, as
+  /// lock-step needs it to be, and a step's latency is that of its sending. `wire` must
+  /// outlive it.
+  SourceLink(msg::Bus& wire, std::optional<Sending> answers, Options options);
 
   /// Where the source publishes, kFromSource last the events, and hears the answers.
   msg::Bus& inside() { return inside_; }
@@ -33,9 +35,13 @@ class SourceLink {
   /// returns at once.
   void wait_until_due(core::Time t);
 
-  /// Sends what was published inside as the step of time `t`. In lock-step waits for the
-  /// answer, and sends the step again whenever there is none for a tenth of a second.
-  void exchange(core::Time t);
+  /// Sends what was published inside as the step of time `t`, which the source has had since
+  /// `origin`, by steady_now(): just now unless given. In lock-step waits for the answer, and
+  /// sends the step again whenever there is none for a tenth of a second.
+  void exchange(core::Time t, std::optional<core::Time> origin = std::nullopt);
+
+  /// For a source that has nothing to send, every second or more often: calls while_waiting.
+  void idle() { options_.while_waiting(); }
 
   ProcessMeter& meter() { return meter_; }
 
@@ -45,11 +51,10 @@ class SourceLink {
   void wait(core::Time at_most);
 
   msg::Bus& wire_;
-  Sending answers_;
   Options options_;
   msg::Bus inside_;
   msg::StepSender sender_;
-  msg::StepReceiver receiver_;
+  std::optional<msg::StepReceiver> receiver_;  ///< Of the answers.
   ProcessMeter meter_;
   std::int64_t run_;
   std::optional<core::Time> zero_;  ///< Steady clock's time of t = 0.

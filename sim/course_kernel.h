@@ -9,7 +9,7 @@
 namespace nightjar::sim {
 
 /// How many columns the tables below have.
-inline constexpr std::uint32_t kMostCourses = 768;
+inline constexpr std::uint32_t kMostCourses = 704;
 
 /// Pixels whose course through a step is to be set up, many at a time: one column each.
 struct alignas(64) CourseStarts {

@@ -19,6 +19,7 @@
 #include "scenarios/gnuplot.h"
 #include "scenarios/reconstruction_speed.h"
 #include "scenarios/reconstruction_speed_text.h"
+#include "scenarios/recordings.h"
 #include "tools/interrupt.h"
 #include "tools/progress_bar.h"
 #include "tools/reconstruct_options.h"
@@ -99,7 +100,7 @@ std::optional<scenarios::EventWorkload> recorded(const Arguments& arguments) {
   }
   std::optional<core::Resolution> size;
   if (arguments.size) size = parse_size(*arguments.size);
-  const auto reader = camera::open_recording(arguments.recording, size);
+  const auto reader = scenarios::open_recording(arguments.recording, size);
   auto workload =
       scenarios::read_workload(*reader, fs::path(arguments.recording).filename().string(), kEvents);
   warn(reader->faults().first);

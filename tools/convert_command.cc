@@ -9,8 +9,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "camera/recording_writer.h"
 #include "scenarios/recording_info.h"
+#include "scenarios/recordings.h"
 #include "tools/recording_options.h"
 
 namespace nightjar::tools {
@@ -23,19 +23,24 @@ struct Arguments {
 };
 
 constexpr const char* kNotes = R"(
-What a format has no place for is left out and said on stderr: text holds events alone, AEDAT4
-frames of 8 bits, AEDAT 3.1 everything. OUT appears when it is complete.
+What a format has no place for is left out and said on stderr, a line for each kind: text holds
+events alone, AEDAT4 frames of 8 bits, AEDAT 3.1 and LCM logs everything; of a flight's log the
+camera's part is taken. OUT appears when it is complete.
 
 Examples:
   nightjar convert road.aedat4 road.aedat         (AEDAT 3.1)
   nightjar convert events.txt events.aedat4 --size 346x260 --compression zstd
   nightjar convert davis.aedat davis.txt
+  nightjar convert out/landing/run.lcm landing.aedat4
+  nightjar convert road.aedat4 road.lcm           (an LCM log, for nightjar replay too)
 
 Exit codes: 0 done, 2 bad input, 3 our own fault or the disk's, 130 interrupted.)";
 
 void declare(CLI::App& command, Arguments& arguments) {
   declare(command, arguments.recording, "IN");
-  command.add_option("OUT", arguments.out, "a name ending in .aedat4, .aedat (AEDAT 3.1) or .txt")
+  command
+      .add_option("OUT", arguments.out,
+                  "a name ending in .aedat4, .aedat (AEDAT 3.1), .txt or .lcm")
       ->required();
   command.add_option("--compression", arguments.compression, "of AEDAT4: lz4, zstd or none")
       ->capture_default_str()
@@ -51,10 +56,11 @@ camera::Compression parse_compression(const std::string& name) {
 }
 
 void run(const Arguments& arguments) {
-  camera::check_recording_name("OUT", arguments.out);
+  scenarios::check_recording_name("OUT", arguments.out);
   const camera::Compression compression = parse_compression(arguments.compression);
   const auto in = open(arguments.recording);
-  const auto out = camera::create_recording(arguments.out, {in->size(), in->camera()}, compression);
+  const auto out =
+      scenarios::create_recording(arguments.out, {in->size(), in->camera()}, compression);
   std::uint64_t events = 0;
   {
     const auto on_progress = progress_of(arguments.recording, "converting");
@@ -66,8 +72,10 @@ void run(const Arguments& arguments) {
   }
   out->finish();
   warn(scenarios::fault_text(in->faults()));
-  if (const std::string left_out = out->not_carried().text(); !left_out.empty())
-    warn(fmt::format("{} cannot carry {}", arguments.out.string(), left_out));
+  for (const std::string& thing : out->not_carried().things())
+    warn(fmt::format("{} cannot carry {}", arguments.out.string(), thing));
+  for (const auto& [channel, messages] : in->others())
+    warn(fmt::format("left out {} messages {}", messages, channel));
   if (!arguments.recording.quiet)
     std::cout << fmt::format("{} events, {} to {}\n", events, in->format(), arguments.out.string());
 }

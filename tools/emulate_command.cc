@@ -15,6 +15,7 @@
 #include "camera/frame_source.h"
 #include "camera/recording_writer.h"
 #include "scenarios/emulate.h"
+#include "scenarios/recordings.h"
 #include "scenarios/scenario.h"
 #include "tools/interrupt.h"
 #include "tools/progress_bar.h"
@@ -67,7 +68,7 @@ void declare(CLI::App& command, Arguments& arguments) {
       ->required();
   command
       .add_option("--out", arguments.out,
-                  "where the events go: a name ending in .txt, .aedat4 or .aedat (3.1)")
+                  "where the events go: a name ending in .txt, .aedat4, .aedat (3.1) or .lcm")
       ->required()
       ->type_name("EVENTS");
   command
@@ -140,7 +141,7 @@ camera::FrameOptions frame_options_of(const Arguments& arguments) {
 }
 
 scenarios::Emulation emulate(const Arguments& arguments) {
-  camera::check_recording_name("--out", arguments.out);
+  scenarios::check_recording_name("--out", arguments.out);
   scenarios::EmulateOptions options = options_of(arguments);
   const auto frames = camera::open_frames(arguments.input, frame_options_of(arguments));
   note_interrupts();  // before there is anything to leave behind
@@ -150,7 +151,7 @@ scenarios::Emulation emulate(const Arguments& arguments) {
   std::optional<ProgressBar> progress;
   if (!arguments.quiet && isatty(STDERR_FILENO) != 0) progress.emplace(std::cerr, true);
   options.on_start = [&](core::Resolution size) {
-    out = camera::create_recording(arguments.out, {size, "Nightjar"});
+    out = scenarios::create_recording(arguments.out, {size, "Nightjar"});
   };
   options.on_progress = [&](double done_s, double end_s) {
     throw_if_interrupted();

@@ -7,6 +7,8 @@
 #include <string>
 
 #include "tools/bench_command.h"
+#include "tools/calibrate_command.h"
+#include "tools/camera_command.h"
 #include "tools/convert_command.h"
 #include "tools/emulate_command.h"
 #include "tools/exit_code.h"
@@ -50,6 +52,8 @@ int main(int argc, char** argv) {
   int exit_code = kPassed;
   add_run_command(app, exit_code);
   add_bench_command(app);
+  add_calibrate_command(app);
+  add_camera_command(app);
   add_convert_command(app);
   add_emulate_command(app);
   add_info_command(app);

@@ -23,9 +23,10 @@ class EverySecond {
     if (quiet_ || now < next_) return;
     next_ = now + 1s;
     const scenarios::ProcessReport report = meter_.take_interval();
-    if (report.steps > 0 || !told_idle_)
-      std::cerr << (report.steps > 0 ? to_line(report) : report.process + ": waiting") << std::endl;
-    told_idle_ = report.steps == 0;
+    const bool idle = report.steps == 0 && !report.camera;  // of a camera silence is news
+    if (!idle || !told_idle_)
+      std::cerr << (idle ? report.process + ": waiting" : to_line(report)) << std::endl;
+    told_idle_ = idle;
   }
 
  private:
@@ -48,10 +49,10 @@ void tell_result(const ProcessOptions& options, const scenarios::ProcessReport& 
 }  // namespace
 
 const char* const kProcessNotes = R"(
-One source (nightjar simulate, nightjar replay), nightjar reconstruct --lcm and nightjar
-track make one loop, started in any order. The source decides: in lock-step a step is sent
-again until it is answered and none is lost; free-running keeps real time. When a source
-begins anew the others do too.
+One source (nightjar simulate, nightjar camera, nightjar replay), nightjar reconstruct
+--lcm and nightjar track make one loop, started in any order. The source decides: in
+lock-step a step is sent again until it is answered and none is lost; free-running keeps
+real time. When a source begins anew the others do too.
 
 The default url, udpm://239.255.76.67:7667?ttl=0, does not leave this computer. It wants a
 multicast route on the loopback device: ip link set lo multicast on; ip route add
@@ -89,7 +90,7 @@ void serve(const ProcessOptions& options, scenarios::NodeProcess::Setup setup,
   tell_result(options, report);
 }
 
-void send(const SourceOptions& options, bool lock_step, scenarios::Sending answers,
+void send(const ProcessOptions& options, bool lock_step, std::optional<scenarios::Sending> answers,
           const std::function<void(scenarios::SourceLink&)>& fly) {
   msg::Bus wire(options.lcm_url);
   std::function<void()> tell = [] {};

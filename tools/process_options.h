@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "scenarios/node_process.h"
@@ -40,7 +41,7 @@ void serve(const ProcessOptions& options, scenarios::NodeProcess::Setup setup,
 
 /// Has `fly` send over a link, reports once a second on stderr and at the end, which a
 /// signal may bring on: then throws Interrupted after the report.
-void send(const SourceOptions& options, bool lock_step, scenarios::Sending answers,
+void send(const ProcessOptions& options, bool lock_step, std::optional<scenarios::Sending> answers,
           const std::function<void(scenarios::SourceLink&)>& fly);
 
 }  // namespace nightjar::tools

@@ -17,6 +17,7 @@
 #include "scenarios/gray_picture.h"
 #include "scenarios/reconstruct.h"
 #include "scenarios/reconstruction_folder.h"
+#include "scenarios/recordings.h"
 #include "tools/interrupt.h"
 #include "tools/progress_bar.h"
 #include "tools/reconstruct_options.h"
@@ -47,8 +48,8 @@ struct Arguments {
 };
 
 constexpr const char* kNotes = R"(
-Recordings: AEDAT4, AEDAT 3.1, AEDAT 2.0, or text, "t_seconds x y polarity" a line; the
-content tells which. The first picture is due 1/N s after the first event, the last no later
+Recordings: AEDAT4, AEDAT 3.1, AEDAT 2.0, LCM logs of ours (nightjar run --record-events), or
+text, "t_seconds x y polarity" a line; the content tells which. The first picture is due 1/N s after the first event, the last no later
 than the last event. Methods that use the frames of the active pixels get the recording's.
 
 DIR: picture_000001.png, ... (or pictures.mp4, which plays in real time), times.csv
@@ -159,7 +160,7 @@ Result reconstruct(const Arguments& arguments) {
   scenarios::ReconstructOptions options = options_of(arguments);
   std::optional<core::Resolution> size;
   if (arguments.size) size = parse_size(*arguments.size);
-  const auto recording = camera::open_recording(arguments.recording, size);
+  const auto recording = scenarios::open_recording(arguments.recording, size);
   std::optional<core::Image<std::uint8_t>> reference;
   if (!arguments.reference.empty()) reference = scenarios::read_gray_picture(arguments.reference);
 

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
+#include "scenarios/recordings.h"
 #include "tools/interrupt.h"
 #include "tools/progress_bar.h"
 #include "tools/sensor_options.h"
@@ -14,7 +15,8 @@ namespace nightjar::tools {
 void declare(CLI::App& command, RecordingOptions& options, const std::string& name) {
   command
       .add_option(name, options.path,
-                  "a recording: AEDAT4, AEDAT 3.1, AEDAT 2.0 (DAVIS) or text, told by its content")
+                  "a recording: AEDAT4, AEDAT 3.1, AEDAT 2.0 (DAVIS), text or an LCM log of ours, "
+                  "told by its content")
       ->required();
   command
       .add_option("--size", options.size,
@@ -27,7 +29,7 @@ void declare(CLI::App& command, RecordingOptions& options, const std::string& na
 std::unique_ptr<camera::RecordingReader> open(const RecordingOptions& options) {
   std::optional<core::Resolution> size;
   if (options.size) size = parse_size(*options.size);
-  auto recording = camera::open_recording(options.path, size);
+  auto recording = scenarios::open_recording(options.path, size);
   note_interrupts();  // before there is anything to leave behind
   return recording;
 }

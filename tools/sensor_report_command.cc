@@ -16,6 +16,7 @@
 #include "camera/recording.h"
 #include "core/part_file.h"
 #include "scenarios/gnuplot.h"
+#include "scenarios/recordings.h"
 #include "scenarios/scenario.h"
 #include "scenarios/sensor_report.h"
 #include "scenarios/sensor_report_plot.h"
@@ -69,7 +70,7 @@ void declare(CLI::App& command, Arguments& arguments) {
       ->type_name("FILE");
   command
       .add_option("--recording", arguments.recording,
-                  "events of a real sensor: AEDAT4, AEDAT 3.1, AEDAT 2.0 or text")
+                  "events of a real sensor: AEDAT4, AEDAT 3.1, AEDAT 2.0, text or an LCM log of ours")
       ->type_name("FILE");
   command
       .add_option("--size", arguments.size,
@@ -94,7 +95,7 @@ void declare(CLI::App& command, Arguments& arguments) {
 /// A recording of any format, at once. Text is taken strictly; what else is not as it
 /// should be is warned of.
 camera::EventRecording read_recording(const fs::path& path, std::optional<core::Resolution> size) {
-  const auto reader = camera::open_recording(path, size);
+  const auto reader = scenarios::open_recording(path, size);
   if (reader->format() == "text") return camera::read_event_text(path, size);
   camera::EventRecording recording{reader->size(), {}};
   for (camera::RecordingPart part; reader->next(part);)

@@ -70,6 +70,18 @@ void declare_trial(CLI::App& command, Arguments& arguments) {
   command.footer(kExamples);
 }
 
+/// Throws for a value that is given twice.
+template <class T>
+void check_once(const char* option, const std::vector<T>& values) {
+  std::set<T> seen;
+  for (const T& value : values)
+    if (!seen.insert(value).second) {
+      std::ostringstream text;
+      text << option << " = " << value << ", allowed once";
+      throw std::invalid_argument(text.str());
+    }
+}
+
 sim::CarryMotion parse_motion(const std::string& name) {
   for (const auto& [each, motion] : sim::kCarryMotions)
     if (name == each) return motion;
@@ -92,12 +104,8 @@ scenarios::TrialEntry parse_entry(const std::string& text,
 std::vector<scenarios::TrialEntry> entries_of(const Arguments& arguments,
                                               const scenarios::ReconstructSettings& settings) {
   std::vector<scenarios::TrialEntry> entries;
-  std::set<std::string> names;
-  for (const std::string& text : arguments.methods) {
-    if (!names.insert(text).second)
-      throw std::invalid_argument("--method = " + text + ", allowed once");
-    entries.push_back(parse_entry(text, settings));
-  }
+  check_once("--method", arguments.methods);
+  for (const std::string& text : arguments.methods) entries.push_back(parse_entry(text, settings));
   return entries;
 }
 
@@ -106,6 +114,9 @@ scenarios::TrialConfig config_of(const Arguments& arguments,
   scenarios::TrialConfig config;
   config.model = arguments.model;
   config.detector = settings.tracker.detector;
+  check_once("--motion", arguments.motions);
+  check_once("--illuminance", arguments.illuminances_lux);
+  check_once("--seed", arguments.seeds);
   if (!arguments.motions.empty()) config.motions.clear();
   for (const std::string& name : arguments.motions) config.motions.push_back(parse_motion(name));
   config.illuminances_lux = arguments.illuminances_lux;

@@ -203,7 +203,8 @@ struct TrackerConfig {
   /// A picture shows the world as it was this long before. In 5 lux the error of the
   /// tracked position is least, and flat, between 0 and 10 ms and grows from 20 ms on.
   double picture_delay_ms = 10;
-  double command_delay_ms = 10;  ///< From the picture until a setpoint acts.
+  double command_delay_ms = 10;   ///< From the picture until a setpoint acts.
+  double max_state_age_ms = 100;  ///< A picture whose last vehicle state is older is refused.
   DetectorConfig detector;
   WindowConfig window;
   MeasurementConfig measurement;
@@ -215,6 +216,7 @@ struct TrackerConfig {
   void visit(Visitor& v) {
     v.field("picture_delay_ms", picture_delay_ms, 0.0, 200.0);
     v.field("command_delay_ms", command_delay_ms, 0.0, 200.0);
+    v.field("max_state_age_ms", max_state_age_ms, 0.0, 500.0);
     v.section("detector", detector);
     v.section("window", window);
     v.section("measurement", measurement);

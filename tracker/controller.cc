@@ -10,6 +10,8 @@ namespace nightjar::tracker {
 namespace {
 
 constexpr double kGravity_m_s2 = 9.81;
+// After a pause, as when the camera was away, neither heading nor integral jumps.
+constexpr double kLongestStep_s = 0.15;
 constexpr double kRad_deg = std::numbers::pi / 180;
 
 double heading_of(const Eigen::Quaterniond& q_world_body) {
@@ -45,7 +47,7 @@ core::AttitudeSetpoint Controller::step(const core::VehicleState& vehicle, const
     last_step_ = vehicle.t;
     heading_rad_ = heading_of(vehicle.q_world_body);
   }
-  const double dt_s = core::seconds(vehicle.t - *last_step_);
+  const double dt_s = std::min(core::seconds(vehicle.t - *last_step_), kLongestStep_s);
   last_step_ = vehicle.t;
 
   core::AttitudeSetpoint setpoint{.t = vehicle.t,

@@ -12,6 +12,8 @@ namespace {
 
 using core::MissionPhase;
 
+// Longer without a step than any source's packets are: pictures stopped, somebody else flew.
+constexpr core::Time kPause = std::chrono::milliseconds(150);
 // While landing the goal sinks this far below standing height: the pull that
 // tells standing on the board from not having come down yet.
 constexpr double kPressDepth_m = 0.25;
@@ -67,7 +69,9 @@ FlightGoal Mission::step(const core::VehicleState& vehicle, const core::TargetEs
     search_centre_m_.head<2>() = vehicle.p_world_body_m.head<2>();
     search_z_m_ = vehicle.p_world_body_m.z();
   }
-  const double dt_s = core::seconds(vehicle.t - last_step_);
+  const core::Time since_last = vehicle.t - last_step_;
+  if (since_last > kPause) held_since_.reset();
+  const double dt_s = core::seconds(std::min(since_last, kPause));  // the goal must not jump
   last_step_ = vehicle.t;
   const Relation now(vehicle, target);
   decide(now);

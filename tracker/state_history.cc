@@ -27,7 +27,8 @@ void StateHistory::add(const core::VehicleState& state) {
 }
 
 std::optional<core::VehicleState> StateHistory::at(core::Time t) const {
-  if (states_.empty() || t < states_.front().t || t > states_.back().t + span_) return std::nullopt;
+  if (states_.empty() || t < states_.front().t || t > states_.back().t + most_ahead_)
+    return std::nullopt;
   const auto after = std::lower_bound(
       states_.begin(), states_.end(), t,
       [](const core::VehicleState& state, core::Time time) { return state.t < time; });

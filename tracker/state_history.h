@@ -11,8 +11,8 @@ namespace nightjar::tracker {
 /// between two of them.
 class StateHistory {
  public:
-  /// Keeps states up to `span` older than the newest.
-  explicit StateHistory(core::Time span) : span_(span) {}
+  /// Keeps states up to `span` older than the newest, and moves that on by `most_ahead`.
+  StateHistory(core::Time span, core::Time most_ahead) : span_(span), most_ahead_(most_ahead) {}
 
   /// Takes the next state; throws std::invalid_argument if it is not newer
   /// than the last one.
@@ -20,11 +20,12 @@ class StateHistory {
 
   /// The state at `t`: interpolated (positions linearly, attitude along the
   /// great circle); after the newest extrapolated at its velocity and body
-  /// rate, for at most `span`. Nothing before the oldest or when there is none.
+  /// rate, no further than `most_ahead`. Nothing before the oldest or when there is none.
   std::optional<core::VehicleState> at(core::Time t) const;
 
  private:
   core::Time span_;
+  core::Time most_ahead_;
   std::deque<core::VehicleState> states_;
 };
 

@@ -14,7 +14,7 @@ namespace nightjar::tracker {
 namespace {
 
 using Corners = std::array<Eigen::Vector3d, 4>;
-using Pixels = std::array<Eigen::Vector2d, 4>;
+using Pixels = std::array<Eigen::Vector2d, 4>;  // of a pinhole
 using Residual = Eigen::Matrix<double, 8, 1>;
 using Jacobian = Eigen::Matrix<double, 8, 6>;
 
@@ -22,7 +22,7 @@ constexpr int kIterations = 50;         // 5 to 10 are the rule; a flat minimum 
 constexpr double kConverged = 1e-10;    // rad and, relative to the range, m
 constexpr double kSamePose_rad = 0.01;  // nearer solutions are one
 
-/// Convex and seen from its face: with y down, all turns go to the left.
+/// Convex and seen from its face: with y down, all turns go to the left. NaN is neither.
 bool is_front_of_square(const Pixels& p) {
   for (std::size_t i = 0; i < 4; ++i) {
     const Eigen::Vector2d a = p[(i + 1) % 4] - p[i];
@@ -134,13 +134,17 @@ std::array<Eigen::Vector3d, 4> tag_corners_m(double tag_size_m) {
 
 std::vector<TagPoseSolution> tag_poses(const core::TagDetection& detection,
                                        const core::CameraModel& camera, double tag_size_m) {
-  if (!is_front_of_square(detection.corner_px)) return {};
+  // Once out of the lens, straight lines are straight and the pinhole's derivatives hold.
+  const core::CameraModel pinhole = camera.pinhole();
+  Pixels pixels;
+  for (std::size_t i = 0; i < 4; ++i) pixels[i] = camera.undistorted(detection.corner_px[i]);
+  if (!is_front_of_square(pixels)) return {};
   const Corners corners = tag_corners_m(tag_size_m);
-  const auto start = pose_of_homography(detection.corner_px, corners, camera);
+  const auto start = pose_of_homography(pixels, corners, pinhole);
   if (!start) return {};
-  const auto first = refined(*start, detection.corner_px, corners, camera);
+  const auto first = refined(*start, pixels, corners, pinhole);
   if (!first) return {};
-  const auto second = refined(mirrored(first->T_camera_tag), detection.corner_px, corners, camera);
+  const auto second = refined(mirrored(first->T_camera_tag), pixels, corners, pinhole);
   const auto apart = [&] {
     return Eigen::AngleAxisd(first->T_camera_tag.linear().transpose() *
                              second->T_camera_tag.linear())

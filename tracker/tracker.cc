@@ -43,7 +43,7 @@ Tracker::Tracker(const TrackerConfig& config, const core::CameraModel& camera,
     : config_(checked(config)),
       camera_(camera),
       T_body_camera_(T_body_camera),
-      history_(kHistory),
+      history_(kHistory, milliseconds(config.max_state_age_ms)),
       detector_(config.detector),
       ekf_(config.filter),
       mission_(config.mission),
@@ -59,7 +59,8 @@ TrackerOutput Tracker::process(const core::Picture& picture) {
   const auto vehicle = history_.at(picture.t);
   if (!vehicle)
     throw std::invalid_argument(
-        fmt::format("picture at {} us, no vehicle state near it", picture.t.count()));
+        fmt::format("picture at {} us, no vehicle state of that time or up to {:g} ms before it",
+                    picture.t.count(), config_.max_state_age_ms));
 
   TrackerOutput output;
   const core::Time seen_t = picture.t - milliseconds(config_.picture_delay_ms);

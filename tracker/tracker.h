@@ -38,8 +38,8 @@ class Tracker {
   void add_vehicle_state(const core::VehicleState& state);
 
   /// Takes the next picture. Vehicle states up to its time should be in; throws
-  /// std::invalid_argument if there is none at or shortly before it, and for a
-  /// picture that is not of the camera's size.
+  /// std::invalid_argument if there is none at it or, by max_state_age_ms, shortly before,
+  /// and for a picture that is not of the camera's size.
   TrackerOutput process(const core::Picture& picture);
 
  private:

@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <string>
 
+#include "camera/trigger_types.h"
 #include "tests/support/recordings.h"
 
 namespace nightjar::camera {
@@ -12,6 +15,7 @@ namespace {
 
 using core::Event;
 using core::Time;
+using testing::DoubleNear;
 using testing::ElementsAre;
 
 const std::string kHeader =
@@ -43,14 +47,154 @@ TEST(Aedat2ReaderTest, reads_events_and_turns_the_rows_over) {
   EXPECT_FALSE(read.faults.any()) << read.faults.first;
 }
 
-TEST(Aedat2ReaderTest, counts_samples_it_does_not_read_and_takes_pulses_for_triggers) {
+TEST(Aedat2ReaderTest, takes_signals_at_the_input_for_triggers) {
   const test::WholeRecording read =
-      test::read_bytes(kHeader + record(1u << 31, 1) + record(1u << 10, 2) + event(1, 1, true, 3));
-  EXPECT_EQ(read.all.events.size(), 1u);
-  EXPECT_THAT(read.all.triggers, ElementsAre(Trigger{Time(2), 4}));
+      test::read_bytes(kHeader + record(1u << 10, 2) + record(1u << 10 | 2, 3) +
+                       record(1u << 10 | 3, 4) + record(1u << 10 | 4, 5));
+  EXPECT_THAT(read.all.triggers,
+              ElementsAre(Trigger{Time(2), kExternalPulse}, Trigger{Time(3), kExternalFalling},
+                          Trigger{Time(4), kExternalRising}, Trigger{Time(5), kExternalPulse}));
+}
+
+/// A read of an active pixel at column `x` of the file (from the right) and row `up`.
+std::string aps(std::uint32_t x, std::uint32_t up, bool signal, std::uint32_t level,
+                std::uint32_t t_us) {
+  return record(1u << 31 | up << 22 | x << 12 | (signal ? 1u << 10 : 0u) | level, t_us);
+}
+
+constexpr core::Resolution kSmall{4, 3};
+const std::string kNoChip = "#!AER-DAT2.0\r\n";
+
+/// Of every pixel of a 4x3 sensor, column by column, one microsecond a column.
+std::string all_pixels(bool signal, std::uint32_t t_us, std::uint32_t least_level) {
+  std::string bytes;
+  for (std::uint32_t x = 0; x < 4; ++x)
+    for (std::uint32_t up = 0; up < 3; ++up)
+      bytes += aps(x, up, signal, least_level + 10 * x + up, t_us + x);
+  return bytes;
+}
+
+TEST(Aedat2ReaderTest, makes_frames_of_reset_reads_minus_signal_reads) {
+  const test::WholeRecording read =
+      test::read_bytes(kNoChip + all_pixels(false, 100, 900) + event(1, 1, true, 150) +
+                           aps(0, 0, true, 901, 200) +  // darker than its reset: 0
+                           all_pixels(true, 200, 600).substr(8) + event(1, 1, true, 300),
+                       kSmall);
+  EXPECT_FALSE(read.faults.any()) << read.faults.first;
+  EXPECT_EQ(read.all.events.size(), 2u);
+  ASSERT_EQ(read.all.frames.size(), 1u);
+  const RecordedFrame& frame = read.all.frames[0];
+  EXPECT_EQ(frame.gray.size(), kSmall);
+  EXPECT_EQ(frame.bits, 10);
+  EXPECT_EQ(frame.gray(3, 2), 0);    // column 0 from the right, row 0 from the bottom
+  EXPECT_EQ(frame.gray(0, 0), 300);  // 900 - 600
+  // A global shutter: all resets are read before the exposure, all signals after it.
+  EXPECT_EQ(frame.frame_begin, Time(100));
+  EXPECT_EQ(frame.exposure_begin, Time(103));
+  EXPECT_EQ(frame.exposure_end, Time(200));
+  EXPECT_EQ(frame.frame_end, Time(203));
+}
+
+TEST(Aedat2ReaderTest, lays_frames_where_the_events_are) {
+  // The file's column of an active pixel counts from the right, that of an event from the left.
+  const test::WholeRecording read =
+      test::read_bytes(kNoChip + event(1, 2, true, 1) + aps(2, 2, false, 700, 2) +
+                           aps(2, 2, true, 200, 9) + aps(2, 2, false, 700, 20),
+                       kSmall);
+  ASSERT_EQ(read.all.frames.size(), 1u);
+  EXPECT_EQ(read.all.frames[0].left_px, read.all.events.at(0).x);
+  EXPECT_EQ(read.all.frames[0].top_px, read.all.events.at(0).y);
+}
+
+TEST(Aedat2ReaderTest, knows_a_rolling_shutter_by_signals_among_the_resets) {
+  std::string bytes = kNoChip;
+  for (std::uint32_t column = 0; column < 5; ++column)
+    for (std::uint32_t up = 0; up < 3; ++up) {
+      if (column < 4) bytes += aps(column, up, false, 500, 100 + 10 * column);
+      if (column > 0) bytes += aps(column - 1, up, true, 400, 100 + 10 * column);
+    }
+  const test::WholeRecording read = test::read_bytes(bytes, kSmall);
+  ASSERT_EQ(read.all.frames.size(), 1u);
+  EXPECT_EQ(read.all.frames[0].exposure_begin, Time(100));
+  EXPECT_EQ(read.all.frames[0].exposure_end, Time(110));  // each pixel's is 10 us
+  EXPECT_FALSE(read.faults.any()) << read.faults.first;
+}
+
+TEST(Aedat2ReaderTest, takes_a_rectangle_of_pixels_for_a_region_of_interest) {
+  std::string region;
+  for (const bool signal : {false, true})
+    for (const std::uint32_t x : {1u, 2u})
+      for (const std::uint32_t up : {0u, 1u})
+        region += aps(x, up, signal, signal ? 300 : 350, signal ? 20 : 10);
+  const test::WholeRecording read =  // two of them: the second ends with the file
+      test::read_bytes(kNoChip + region + region, kSmall);
+  ASSERT_EQ(read.all.frames.size(), 2u);
+  for (const RecordedFrame& frame : read.all.frames) {
+    EXPECT_EQ(frame.gray.size(), (core::Resolution{2, 2}));
+    EXPECT_EQ(frame.left_px, 1);
+    EXPECT_EQ(frame.top_px, 1);
+    EXPECT_EQ(frame.gray(1, 1), 50);
+  }
+}
+
+TEST(Aedat2ReaderTest, counts_frames_that_lost_reads_and_signals_without_their_resets) {
+  const std::string resets = all_pixels(false, 100, 900), signals = all_pixels(true, 200, 600);
+  const test::WholeRecording read =
+      test::read_bytes(kNoChip + signals.substr(8 * 9) +     // began before the file
+                           resets + signals.substr(8 * 5) +  // five signals lost
+                           resets + signals,
+                       kSmall);
+  EXPECT_EQ(read.all.frames.size(), 1u);
+  EXPECT_EQ(read.faults.packets_damaged, 3u + 1u);
+  EXPECT_EQ(read.faults.first, "dark.rec: byte 14: record: of a frame or sample that is not whole");
+}
+
+TEST(Aedat2ReaderTest, passes_over_reads_of_another_kind_or_off_the_sensor) {
+  const test::WholeRecording read = test::read_bytes(
+      kNoChip + record(1u << 31 | 2u << 10, 1) + aps(4, 0, false, 1, 2) + aps(0, 3, true, 1, 2),
+      kSmall);
   EXPECT_EQ(read.faults.packets_unknown, 1u);
-  EXPECT_EQ(read.faults.first, "dark.rec: byte " + std::to_string(kHeader.size()) +
-                                   ": record: of the active pixels or inertial sensor");
+  EXPECT_EQ(read.faults.events_outside, 2u);
+}
+
+/// The seven records of an inertial sample whose counts are 1000, 2000, ...
+std::string imu(std::uint32_t t_us) {
+  std::string bytes;
+  for (std::uint32_t code = 0; code < 7; ++code)
+    bytes += record(1u << 31 | code << 28 | (1000 * (code + 1)) << 12 | 3u << 10, t_us);
+  return bytes;
+}
+
+TEST(Aedat2ReaderTest, reads_inertial_samples_by_the_scale_of_the_settings) {
+  const std::string settings =
+      "# <entry key=\"DAVIS240C.IMU.AccelScale\" value=\"ImuAccelScaleG4\"/>\r\n"
+      "# <entry key=\"DAVIS240C.IMU.GyroScale\" value=\"GyroFullScaleDegPerSec500\"/>\r\n";
+  for (const bool told : {false, true}) {
+    const test::WholeRecording read = test::read_bytes(kHeader + (told ? settings : "") + imu(7));
+    EXPECT_FALSE(read.faults.any()) << read.faults.first;
+    ASSERT_EQ(read.all.imu.size(), 1u);
+    const RecordedImu& sample = read.all.imu[0];
+    EXPECT_EQ(sample.t, Time(7));
+    // By default 8 g and 1000 deg/s over 2^15 counts, axes as imu_axes.h says.
+    const double g_m_s2 = (told ? 4 : 8) / 32768.0 * 9.80665;
+    const double rad_s = (told ? 500 : 1000) / 32768.0 * std::numbers::pi / 180;
+    const auto near = [](double value) { return DoubleNear(value, 1e-6 * std::abs(value)); };
+    EXPECT_THAT(sample.specific_force_camera_m_s2.x(), near(-1000 * g_m_s2));  // floats' rounding
+    EXPECT_THAT(sample.specific_force_camera_m_s2.y(), near(2000 * g_m_s2));
+    EXPECT_THAT(sample.specific_force_camera_m_s2.z(), near(-3000 * g_m_s2));
+    EXPECT_THAT(static_cast<double>(sample.temperature_c), near(4000 / 340.0 + 35));
+    EXPECT_THAT(sample.omega_camera_rad_s.x(), near(-5000 * rad_s));
+    EXPECT_THAT(sample.omega_camera_rad_s.y(), near(6000 * rad_s));
+    EXPECT_THAT(sample.omega_camera_rad_s.z(), near(-7000 * rad_s));
+  }
+}
+
+TEST(Aedat2ReaderTest, counts_records_of_inertial_samples_that_are_not_whole) {
+  const std::string one = imu(7);
+  const test::WholeRecording read =
+      test::read_bytes(kHeader + one.substr(8 * 5) + one.substr(0, 8 * 3) + one);
+  EXPECT_EQ(read.all.imu.size(), 1u);
+  EXPECT_EQ(read.faults.packets_damaged, 2u + 3u);
 }
 
 TEST(Aedat2ReaderTest, counts_on_where_31_or_32_bits_wrap) {

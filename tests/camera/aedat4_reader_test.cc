@@ -25,7 +25,7 @@ using testing::StartsWith;
 
 constexpr core::Resolution kSize{37, 23};
 
-// Files are made by our own writer, which tests/support/read_aedat.py checks independently,
+// Files are made by our own writer, which tests/support/read_recording.py checks independently,
 // and then spoilt.
 class Aedat4ReaderTest : public testing::Test {
  protected:

@@ -18,6 +18,7 @@ namespace {
 
 using core::Event;
 using core::Time;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
@@ -106,9 +107,21 @@ TEST(RecordingWriterTest, keeps_ten_bits_in_aedat31_and_says_that_aedat4_does_no
   EXPECT_EQ(test::difference(test::read_all(folder / "a.aedat").all, part), "");
   const auto writer = create_recording(folder / "a.aedat4", {kOdd, ""});
   writer->write(part);
-  EXPECT_EQ(writer->not_carried().text(), "1 frames' bits beyond 8");
+  EXPECT_THAT(writer->not_carried().things(), ElementsAre("1 frames' bits beyond 8"));
   writer->finish();
   EXPECT_EQ(test::read_all(folder / "a.aedat4").all.frames.at(0).gray(0, 0), 1021 >> 2);
+}
+
+TEST(RecordingWriterTest, says_that_floats_round_what_a_simulator_measured) {
+  const test::ScratchFolder folder;
+  RecordingPart part = test::sample_part(kOdd, kUnix);
+  part.imu[7].omega_camera_rad_s.x() = 0.1234567890123;
+  for (const char* name : {"a.aedat4", "a.aedat"}) {
+    const auto writer = create_recording(folder / name, {kOdd, ""});
+    writer->write(part);
+    EXPECT_THAT(writer->not_carried().things(),
+                ElementsAre("1 IMU samples' digits beyond those of a float"));
+  }
 }
 
 TEST(RecordingWriterTest, says_what_text_cannot_carry) {
@@ -117,8 +130,8 @@ TEST(RecordingWriterTest, says_what_text_cannot_carry) {
   const auto writer = create_recording(folder / "a.txt", {kOdd, ""});
   writer->write(part);
   writer->finish();
-  EXPECT_EQ(writer->not_carried().text(),
-            "the sensor's size and name, 3 frames, 100 IMU samples, 10 triggers");
+  EXPECT_THAT(writer->not_carried().things(), ElementsAre("the sensor's size and name", "3 frames",
+                                                          "100 IMU samples", "10 triggers"));
   EXPECT_EQ(test::read_all(folder / "a.txt", kOdd).all.events, part.events);
 }
 

@@ -61,6 +61,18 @@ TEST(EventRun, StopsBeforeTheBlockThatEndsTooLate) {
   EXPECT_EQ(handed_out(hundred(), 1000, 0), 0u);
 }
 
+TEST(EventRun, GoesOnBehindWhatAMethodHasTakenItself) {
+  const auto events = hundred();
+  EventRun run(events, 1000, 10000, kEnd);
+  ASSERT_NE(run.limits(), nullptr);
+  EXPECT_EQ(run.limits()->pixel_on_end, kEnd);
+  run.take(3);
+  EXPECT_EQ(run.limits()->earliest_us, events[2].t_us);
+  EXPECT_EQ(run.next(1).data(), &events[3]);
+  EXPECT_EQ(run.rest().size(), 96u);
+  EXPECT_EQ(EventRun(events).limits(), nullptr);
+}
+
 TEST(EventRun, HandsOutWhatWasCheckedAsItIs) {
   const std::vector<PackedEvent> any = {{5, 1000}, {3, 7}};
   EventRun run(any);
@@ -74,9 +86,7 @@ TEST(EventRun, AMethodThatTakesBlocksItselfKeepsWhatCameBeforeABadEvent) {
   const auto events = test::random_events(kSensor, 300, 300ms, /*seed=*/11);
   std::vector<PackedEvent> good;
   for (const core::Event& e : events) good.push_back(pack(e, kSensor.width_px));
-  for (const std::size_t place : {0, 1, 63, 64, 65, 127, 128, 299}) {
-    auto bad = good;
-    bad[place].pixel_on = 2 * 16 * 12;
+  const auto keeps_those_before = [&](const std::vector<PackedEvent>& bad, std::size_t place) {
     Esi refusing({}, kSensor), expected({}, kSensor);
     EXPECT_THROW(refusing.process(std::span<const PackedEvent>(bad)), std::invalid_argument);
     expected.process(std::span<const PackedEvent>(good).first(place));
@@ -86,7 +96,35 @@ TEST(EventRun, AMethodThatTakesBlocksItselfKeepsWhatCameBeforeABadEvent) {
     EXPECT_EQ(a.gray, b.gray) << place;
     // And goes on from there.
     EXPECT_NO_THROW(refusing.process(std::span<const PackedEvent>(good).subspan(place)));
+  };
+  for (const std::size_t place : {0, 1, 15, 16, 17, 63, 64, 65, 127, 128, 299}) {
+    auto bad = good;
+    bad[place].pixel_on = 2 * 16 * 12;
+    keeps_those_before(bad, place);
+    if (place == 0) continue;
+    bad = good;
+    bad[place].t_us = bad[place - 1].t_us - 1;
+    keeps_those_before(bad, place);
   }
+}
+
+TEST(EventRun, AMethodThatTakesBlocksItselfStopsWhereAgesHaveToBeLimited) {
+  // A minute apart, and after an hour at the first one's pixel again: counted in 32 bits with
+  // a sign, that age is negative.
+  constexpr core::Resolution kSensor{16, 12};
+  EsiConfig config;
+  config.decay_rate_hz = 1e-4;
+  std::vector<PackedEvent> events;
+  for (std::uint32_t i = 0; i < 60; ++i) events.push_back({60'000'000 * i, 2 * (i % 59) + 1});
+  events.push_back(events.back());  // so that the one before is not among the last of the run
+  events.back().pixel_on = 2 * 100;
+  Esi at_once(config, kSensor), one_by_one(config, kSensor);
+  at_once.process(std::span<const PackedEvent>(events));
+  for (const PackedEvent& e : events) one_by_one.process(std::span<const PackedEvent>(&e, 1));
+  core::Picture a, b;
+  at_once.render(1h, a);
+  one_by_one.render(1h, b);
+  EXPECT_EQ(a.gray, b.gray);
 }
 
 }  // namespace

@@ -198,6 +198,31 @@ int gray_after(Esi& esi, core::Time t) {
   return picture.gray(1, 1);
 }
 
+TEST(Reconstructor, RefusesTimesThatWouldOverflow) {
+  constexpr core::Time kFarthest{Reconstructor::kFarthest_us};
+  Notes notes;
+  core::Picture picture;
+  core::ApsFrame frame{1us, 2us, 8, core::Image<std::uint16_t>(kSensor)};
+  for (const core::Time t : {kFarthest + 1us, core::Time::max()}) {
+    const std::string allowed = " at " + std::to_string(t.count()) + " us, allowed -23058430092";
+    EXPECT_NE(complaint([&] {
+                notes.process(std::vector<core::Event>{{t, 1, 1, true}});
+              }).find("event" + allowed),
+              std::string::npos);
+    EXPECT_NE(complaint([&] { notes.render(t, picture); }).find("picture" + allowed),
+              std::string::npos);
+    EXPECT_NE(complaint([&] { notes.reset(t); }).find("start" + allowed), std::string::npos);
+    EXPECT_THROW(notes.reset(-t), std::invalid_argument);
+    frame.exposure_end = t;
+    EXPECT_NE(complaint([&] { notes.add_frame(frame); }).find("frame" + allowed),
+              std::string::npos);
+  }
+  EXPECT_TRUE(notes.events.empty());
+  notes.reset(-kFarthest);
+  notes.process(std::vector<core::Event>{{kFarthest, 1, 1, true}});
+  EXPECT_EQ(notes.events.size(), 1u);
+}
+
 TEST(Reconstructor, UnixTimesWorkOnceItIsResetToTheirBegin) {
   const core::Time begin = 1'700'000'000s;
   Esi near_zero({}, kSensor), unix_time({}, kSensor);

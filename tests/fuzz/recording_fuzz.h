@@ -17,15 +17,12 @@ inline void require(bool holds) {
   if (!holds) std::abort();
 }
 
-/// Any bytes at all behind `beginning` are a recording whose lists are ordered and on the
-/// sensor, or an invalid_argument whose text is one line. Anything else is a finding.
-inline int read_recording(std::string_view beginning, const std::uint8_t* data, std::size_t size,
-                          core::Resolution sensor) {
-  std::string bytes(beginning);
-  bytes.append(reinterpret_cast<const char*>(data), size);
+/// What `open` makes of any bytes is a recording whose lists are ordered and on the sensor, or
+/// an invalid_argument whose text is one line. Anything else is a finding.
+template <class Open>
+int read_opened(core::Resolution sensor, Open open) {
   try {
-    const auto reader = camera::open_recording(
-        std::make_unique<std::istringstream>(std::move(bytes)), "fuzz", sensor);
+    const std::unique_ptr<camera::RecordingReader> reader = open();
     core::Time event{}, frame{}, imu{}, trigger{};
     for (camera::RecordingPart part; reader->next(part);) {
       for (const core::Event& each : part.events) {
@@ -53,6 +50,17 @@ inline int read_recording(std::string_view beginning, const std::uint8_t* data, 
     require(std::string_view(error.what()).find('\n') == std::string_view::npos);
   }
   return 0;
+}
+
+/// The same of the bytes behind `beginning`.
+inline int read_recording(std::string_view beginning, const std::uint8_t* data, std::size_t size,
+                          core::Resolution sensor) {
+  return read_opened(sensor, [&] {
+    std::string bytes(beginning);
+    bytes.append(reinterpret_cast<const char*>(data), size);
+    return camera::open_recording(std::make_unique<std::istringstream>(std::move(bytes)), "fuzz",
+                                  sensor);
+  });
 }
 
 }  // namespace nightjar::fuzz

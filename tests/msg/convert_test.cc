@@ -29,6 +29,7 @@ class AnyValues {
   bool flag() { return bits() % 2 != 0; }
   core::Time time() { return core::Time(static_cast<std::int64_t>(bits())); }
   int integer() { return static_cast<int>(static_cast<std::uint32_t>(bits())); }
+  int integer(int below) { return static_cast<int>(bits() % static_cast<unsigned>(below)); }
   double number() { return std::bit_cast<double>(bits()); }
   Eigen::Vector3d vector() { return {number(), number(), number()}; }
   Eigen::Quaterniond quaternion() { return {number(), number(), number(), number()}; }
@@ -152,7 +153,7 @@ TEST(Convert, PicturesKeepEveryBit) {
 
 TEST(Convert, ApsFramesKeepEveryBit) {
   AnyValues any(3);
-  for (const int bits : {8, 10}) {
+  for (const int bits : {8, 10, 16}) {
     const core::ApsFrame sent = any.frame({346, 260}, bits);
     EXPECT_EQ(std::ranges::max(sent.gray.pixels()), (1 << bits) - 1);
     const core::ApsFrame got = round_trip(sent);
@@ -168,7 +169,7 @@ TEST(Convert, ApsFramesBeyondTheirBitsAreRefused) {
   core::ApsFrame frame = any.frame({4, 3}, 10);
   frame.gray(1, 1) = 1024;
   EXPECT_THROW(encode(frame), std::invalid_argument);
-  for (const int bits : {-1, 0, 9, 16, 40}) {
+  for (const int bits : {-1, 0, 9, 15, 17, 40}) {
     frame = any.frame({4, 3}, 8);
     frame.bits = bits;
     EXPECT_THROW(encode(frame), std::invalid_argument) << bits;
@@ -187,6 +188,31 @@ TEST(Convert, ImuSamplesKeepEveryBit) {
     EXPECT_TRUE(same(got.omega_camera_rad_s, sent.omega_camera_rad_s));
     EXPECT_TRUE(same(got.specific_force_camera_m_s2, sent.specific_force_camera_m_s2));
   }
+}
+
+TEST(Convert, NotesOnACameraKeepEveryBit) {
+  AnyValues any(14);
+  for (int round = 0; round < kRounds; ++round) {
+    const SensorNote sensor{any.time(), {1 + any.integer(32767), 1 + any.integer(32767)}, "DAVIS"};
+    EXPECT_EQ(round_trip(sensor), sensor);
+    const TriggerNote trigger{any.time(), any.integer(128)};
+    EXPECT_EQ(round_trip(trigger), trigger);
+    const ReadoutNote readout{any.time(), any.time(), any.time(), any.integer(), any.integer()};
+    EXPECT_EQ(round_trip(readout), readout);
+    const TemperatureNote temperature{any.time(), static_cast<float>(any.integer())};
+    EXPECT_EQ(round_trip(temperature), temperature);
+  }
+  EXPECT_EQ(round_trip(SensorNote{{}, {1, 1}, ""}).camera, "");
+}
+
+TEST(Convert, NotesOnACameraThatCannotBeAreRefused) {
+  EXPECT_THROW(encode(SensorNote{{}, {0, 1}, ""}), std::invalid_argument);
+  EXPECT_THROW(encode(SensorNote{{}, {1, 32768}, ""}), std::invalid_argument);
+  for (const int type : {-1, 128})
+    EXPECT_THROW(encode(TriggerNote{{}, type}), std::invalid_argument) << type;
+  Bytes bytes = encode(SensorNote{{}, {1, 1}, "DAVIS"});
+  bytes[24] = 0x7f;  // of the name's length
+  EXPECT_THROW(decode<SensorNote>(bytes), std::invalid_argument);
 }
 
 TEST(Convert, TagDetectionsKeepEveryBit) {

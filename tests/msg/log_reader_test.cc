@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <memory>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 
 #include "msg/log_writer.h"
 #include "tests/support/scratch_folder.h"
@@ -35,6 +38,62 @@ TEST(LogReader, KnowsALogByItsBeginning) {
   EXPECT_TRUE(is_log(scratch / "a.lcm"));
   for (const char* other : {"events.txt", "empty", "none"}) EXPECT_FALSE(is_log(scratch / other));
   EXPECT_THROW(LogReader(scratch / "none"), std::invalid_argument);
+}
+
+/// A log of three messages of 40 bytes on "CHANNEL": 28 + 7 + 40 bytes each.
+std::string three_messages() {
+  const test::ScratchFolder scratch;
+  LogWriter writer(scratch / "a.lcm");
+  for (const int i : {1, 2, 3}) writer.write("CHANNEL", Bytes(40, static_cast<std::uint8_t>(i)));
+  writer.finish();
+  return test::file_text(scratch / "a.lcm");
+}
+constexpr std::size_t kEach = 75;
+
+/// The first byte of each message that is read, "123" for those above.
+std::string read_all(const std::string& bytes, std::uint64_t expected_loss) {
+  LogReader reader(std::make_unique<std::istringstream>(bytes), "a.lcm");
+  std::string found;
+  while (const auto message = reader.next()) found += static_cast<char>('0' + message->bytes.at(0));
+  EXPECT_EQ(reader.bytes_lost(), expected_loss);
+  EXPECT_EQ(reader.progress(), 1);
+  EXPECT_EQ(reader.offset(), bytes.size());
+  return found;
+}
+
+TEST(LogReader, SaysWhereAMessageBegins) {
+  LogReader reader(std::make_unique<std::istringstream>(three_messages()), "a.lcm");
+  for (std::uint64_t begin = 0; reader.next(); begin += kEach) EXPECT_EQ(reader.offset(), begin);
+  reader.rewind();
+  EXPECT_EQ(reader.next()->bytes, Bytes(40, 1));
+  EXPECT_EQ(reader.offset(), 0u);
+}
+
+TEST(LogReader, GivesWhatIsWholeOfACutLog) {
+  const std::string whole = three_messages();
+  EXPECT_EQ(read_all(whole, 0), "123");
+  EXPECT_EQ(read_all(whole.substr(0, 3 * kEach - 1), kEach - 1), "12");
+  EXPECT_EQ(read_all(whole.substr(0, 2 * kEach + 3), 3), "12");
+  EXPECT_EQ(read_all(whole.substr(5), kEach - 5), "23");
+  EXPECT_EQ(read_all("", 0), "");
+}
+
+TEST(LogReader, GoesOnBehindWhatIsDamaged) {
+  for (const std::size_t at : {0u, 3u, 20u, 23u, 24u, 25u, 27u}) {  // mark and lengths
+    std::string bytes = three_messages();
+    bytes[kEach + at] = static_cast<char>(bytes[kEach + at] ^ 0x41);
+    // The first message's end is no longer told by a mark that is gone.
+    const bool mark_is_gone = at < 4;
+    EXPECT_EQ(read_all(bytes, (mark_is_gone ? 2 : 1) * kEach), mark_is_gone ? "3" : "13") << at;
+  }
+}
+
+TEST(LogReader, TakesNoMessageAsLargeAsItsHeadMayClaim) {
+  std::string bytes = three_messages();
+  bytes.replace(24, 4, "\x7f\xff\xff\xff");  // 2 GiB of data
+  EXPECT_EQ(read_all(bytes, kEach), "23");
+  bytes.replace(20, 4, "\xff\xff\xff\xff");
+  EXPECT_EQ(read_all(bytes, kEach), "23");
 }
 
 }  // namespace

@@ -157,7 +157,16 @@ TEST(LogWriter, IgnoresMessagesAfterItIsFinished) {
 
 TEST(LogWriter, RefusesAFolderThatDoesNotExist) {
   const test::ScratchFolder folder;
-  EXPECT_THROW(LogWriter(folder / "nowhere/run.lcm"), std::runtime_error);
+  EXPECT_THROW(LogWriter(folder / "nowhere/run.lcm"), std::invalid_argument);
+}
+
+TEST(LogWriter, RefusesWhatLcmWouldNotRead) {
+  const test::ScratchFolder folder;
+  LogWriter log(folder / "run.lcm");
+  const Bytes bytes = encode(state_at(1us));
+  for (const std::string& channel : {std::string(), std::string(1000, 'X')})
+    EXPECT_THROW(log.write(channel, bytes), std::invalid_argument);
+  EXPECT_THROW(log.write("X", Bytes(15)), std::invalid_argument);  // no room for a time
 }
 
 }  // namespace

@@ -133,6 +133,14 @@ TEST_F(NodeProcessTest, CountsWhatItsNodeOrTheWireCannotUseAndGoesOn) {
   EXPECT_EQ(answers(), (Answers{{20ms, 1}}));
 }
 
+TEST_F(NodeProcessTest, FreeRunningSaysNothingOfItsOwnAccord) {
+  send_state(10ms, false);
+  send_picture(10ms, false);
+  EXPECT_EQ(answers(), (Answers{{10ms, 1}}));
+  for (core::Time t = 20ms; t <= 1000ms; t += 10ms) send_state(t, false);  // no pictures
+  EXPECT_EQ(answers(), Answers{});
+}
+
 TEST_F(NodeProcessTest, FreeRunningAnswersTheLatestWhenFarBehind) {
   for (core::Time t = 10ms; t <= 200ms; t += 10ms) {
     send_state(t, false);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <vector>
 
@@ -29,6 +30,20 @@ std::vector<core::Picture> pictures(const esi::ReconstructorConfig& config,
   bus.publish(msg::kEvents, {.begin = 10ms, .end = 20ms, .events = {}});
   bus.dispatch();
   return pictures;
+}
+
+TEST(ReconstructionNodeTest, shows_the_same_whenever_the_cameras_clock_began) {
+  std::vector<core::Picture> made;
+  for (const core::Time ahead : {core::Time(0), core::Time(1h)}) {
+    msg::Bus bus;
+    ReconstructionNode node(bus, {}, kSensor);
+    bus.subscribe(msg::kPicture, [&](const core::Picture& picture) { made.push_back(picture); });
+    bus.publish(msg::kEvents, {ahead, ahead + 10ms, {{ahead + 4ms, 3, 4, true}}});
+    bus.dispatch();
+  }
+  ASSERT_EQ(made.size(), 2u);
+  EXPECT_EQ(made[1].t, 1h + 10ms);
+  EXPECT_TRUE(std::ranges::equal(made[0].gray.pixels(), made[1].gray.pixels()));
 }
 
 TEST(ReconstructionNodeTest, makes_a_picture_at_the_end_of_every_packet) {

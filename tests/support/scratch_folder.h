@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -15,9 +16,10 @@ class ScratchFolder {
  public:
   ScratchFolder() {
     const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::temp_directory_path() /
-            (std::string("nightjar_") + test->test_suite_name() + '_' + test->name() + '_' +
-             std::to_string(getpid()));
+    std::string name = std::string("nightjar_") + test->test_suite_name() + '_' + test->name() +
+                       '_' + std::to_string(getpid());
+    std::ranges::replace(name, '/', '_');  // which parametrised tests have in their names
+    path_ = std::filesystem::temp_directory_path() / name;
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }

@@ -39,16 +39,18 @@ class ProcessesTest : public test::ProgramTest {
   /// Runs `source` with the two others, which are stopped by a signal each when it is done;
   /// true when all ended as they should. Whatever happens, the namespace's first process
   /// takes all others with it. A process that has written its first line takes signals.
-  bool run_loop(const std::string& source) {
+  /// `before` and `during`: shell lines to begin with, and for when all have been started.
+  bool run_loop(const std::string& source, const std::string& before = "",
+                const std::string& during = "") {
     std::ofstream(folder_ / "loop.sh")
         << kLoopback << " || exit 9\n"
-        << "nightjar='" NIGHTJAR_PROGRAM "'\n"
+        << before << "nightjar='" NIGHTJAR_PROGRAM "'\n"
         << "heard() { until [ -s $1 ] || ! kill -0 $2 2>/dev/null; do sleep 0.05; done; }\n"
         << "$nightjar reconstruct --lcm short.yaml --json >r.json 2>r.err & r=$!\n"
         << "timeout 100 $nightjar " << source << " --json >s.json 2>s.err & s=$!\n"
         << "sleep 0.3\n"  // the tracker comes late
         << "$nightjar track short.yaml --json >t.json 2>t.err & t=$!\n"
-        << "wait $s; s=$?; heard t.err $t; heard r.err $r; kill -TERM $t; kill -INT $r\n"
+        << during << "wait $s; s=$?; heard t.err $t; heard r.err $r; kill -TERM $t; kill -INT $r\n"
         << "wait $t; t=$?; wait $r; r=$?; echo \"$s $t $r\" >codes\n";
     const std::string command =
         fmt::format("cd '{}' && {} --pid --fork --kill-child timeout 120 sh loop.sh",
@@ -89,11 +91,49 @@ TEST_F(ProcessesTest, FreeRunningALoopEndsAndReports) {
   EXPECT_GT(report("r.json")["steps"], 0);
 }
 
+TEST_F(ProcessesTest, DatagramsThatAreLostAreCountedAndSurvived) {
+  // The source sends to a port of its own, and what the others hear has gaps.
+  ASSERT_TRUE(
+      run_loop("simulate long.yaml --free-running --lcm-url "
+               "'udpm://239.255.76.67:7668?ttl=0'",
+               "python3 " NIGHTJAR_SOURCE_DIR "/tests/support/lossy_relay.py 7668 7667 &\n"))
+      << errors();
+  const int sent = report("s.json")["steps"];
+  for (const char* file : {"r.json", "t.json"}) {
+    const nlohmann::json report = this->report(file);
+    const int steps = report["steps"], lost = report["steps_lost"];
+    EXPECT_GT(report["messages_lost"], 0) << file;
+    EXPECT_GT(lost, 0) << file;
+    EXPECT_GT(steps, lost) << file;  // 12 of 13 marks come through
+    EXPECT_LE(steps + lost, sent) << file;
+  }
+  EXPECT_EQ(report("r.json")["messages_refused"], 0) << report("r.json")["first_refusal"];
+}
+
+TEST_F(ProcessesTest, AProcessThatDiesTakesNoOtherWithItAndANewOneFallsIn) {
+  std::ofstream events(folder_ / "events.txt");
+  for (int i = 1; i <= 5000; ++i) events << fmt::format("{:.3f} {} 9 1\n", 1e-3 * i, i % 346);
+  events.close();
+  // Dies as soon as it has told of steps.
+  ASSERT_TRUE(run_loop("replay events.txt --size 346x260", "",
+                       "until grep -q steps r.err || ! kill -0 $s; do sleep 0.05; done\n"
+                       "kill -KILL $r\n"
+                       "$nightjar reconstruct --lcm short.yaml --json >r.json 2>r.err & r=$!\n"))
+      << errors();
+  EXPECT_EQ(report("s.json")["steps"], 500);
+  EXPECT_GT(report("r.json")["steps"], 0);  // the new one's
+  EXPECT_LT(report("r.json")["steps"], 500);
+}
+
 TEST_F(ProcessesTest, BadInputIsOneLineAndExitCode2) {
   EXPECT_EQ(run_program("simulate none.yaml"), 2);
   expect_one_line("none.yaml");
   EXPECT_EQ(run_program("track none.yaml"), 2);
   expect_one_line("none.yaml");
+  EXPECT_EQ(run_program("camera none.yaml"), 2);
+  expect_one_line("none.yaml");
+  EXPECT_EQ(run_program("camera short.yaml"), 2);
+  expect_one_line("source.type = simulation, expected caer");
   EXPECT_EQ(run_program("replay none.aedat4"), 2);
   expect_one_line("none.aedat4");
   EXPECT_EQ(run_program("reconstruct --lcm"), 2);

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "camera/recording_writer.h"
+#include "msg/log_writer.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/program.h"
 #include "tests/support/recording_samples.h"
@@ -47,7 +48,7 @@ class RecordingCommandsTest : public test::ProgramTest {
     const std::string python = "/usr/bin/python3";
     if (std::system((python + " -c 'import numpy' 2>/dev/null").c_str()) != 0) return std::nullopt;
     const std::string command =
-        fmt::format("cd '{}' && {} -B '{}/tests/support/read_aedat.py' {} > read.json",
+        fmt::format("cd '{}' && {} -B '{}/tests/support/read_recording.py' {} > read.json",
                     folder_.path().string(), python, NIGHTJAR_SOURCE_DIR, file);
     EXPECT_EQ(std::system(command.c_str()), 0);
     return json::parse(test::file_text(folder_ / "read.json"));
@@ -129,6 +130,77 @@ TEST_F(RecordingCommandsTest, an_independent_reader_finds_in_our_files_what_was_
     EXPECT_EQ(old["triggers"][i][1], sample_.triggers[i].type);
 }
 
+TEST_F(RecordingCommandsTest, an_independent_reader_finds_the_events_in_our_text) {
+  const auto mine = read_independently("sample.aedat4");
+  if (!mine) GTEST_SKIP() << "no numpy for /usr/bin/python3";
+  convert("sample.aedat4 a.txt");
+  const json text = *read_independently("a.txt");
+  for (const char* key : {"events", "on", "first_us", "last_us", "checksum"})
+    EXPECT_EQ(text[key], (*mine)[key]) << key;
+}
+
+TEST_F(RecordingCommandsTest, an_independent_reader_finds_in_our_logs_what_was_written) {
+  const auto mine = read_independently("sample.aedat4");
+  if (!mine) GTEST_SKIP() << "no numpy for /usr/bin/python3";
+  convert("sample.aedat4 a.lcm");
+  EXPECT_EQ(err, "");
+  const json log = *read_independently("a.lcm");
+  EXPECT_EQ(log["format"], "LCM log 37x23 DAVIS");
+  for (const char* key : {"events", "on", "first_us", "last_us", "checksum", "frames"})
+    EXPECT_EQ(log[key], (*mine)[key]) << key;
+  ASSERT_EQ(log["imu"].size(), 100u);
+  for (std::size_t i = 0; i < 100; ++i) {
+    const camera::RecordedImu& sample = sample_.imu[i];
+    const Eigen::Vector3d &f = sample.specific_force_camera_m_s2, &w = sample.omega_camera_rad_s;
+    EXPECT_EQ(log["imu"][i], (json{sample.t.count(), sample.temperature_c, f.x(), f.y(), f.z(),
+                                   w.x(), w.y(), w.z()}));
+  }
+  ASSERT_EQ(log["triggers"].size(), 10u);
+  for (std::size_t i = 0; i < 10; ++i)
+    EXPECT_EQ(log["triggers"][i], (json{sample_.triggers[i].t.count(), sample_.triggers[i].type}));
+}
+
+TEST_F(RecordingCommandsTest, recordings_come_through_a_log_as_they_were) {
+  convert("sample.aedat4 a.lcm");
+  json there = info("a.lcm"), here = info("sample.aedat4");
+  EXPECT_EQ(there["format"], "LCM log");
+  there["format"] = here["format"];
+  EXPECT_EQ(there, here);
+  convert("a.lcm again.aedat4");
+  EXPECT_EQ(info("again.aedat4"), here);
+  // The sample has its frames behind a whole second of events, so all has to be read first.
+  for (const std::string file : {"a.lcm", "sample.aedat4"}) {
+    ASSERT_EQ(run_program("view " + file + " --at 0.95 --span 0.02 --out " + file + ".png"), 0);
+    ASSERT_EQ(run_program("reconstruct " + file + " --fps 10 --quiet --out " + file + ".d"), 0);
+  }
+  EXPECT_TRUE(test::file_text(folder_ / "a.lcm.png") ==
+              test::file_text(folder_ / "sample.aedat4.png"));
+  EXPECT_TRUE(test::file_text(folder_ / "a.lcm.d/picture_000005.png") ==
+              test::file_text(folder_ / "sample.aedat4.d/picture_000005.png"));
+}
+
+TEST_F(RecordingCommandsTest, of_a_flights_log_the_rest_is_said_to_be_left_out) {
+  {
+    msg::LogWriter log(folder_ / "run.lcm");
+    core::VehicleState state;
+    log.write(msg::kVehicleState.name, msg::encode(state));
+    using namespace std::chrono_literals;
+    log.write(msg::kEvents.name, msg::encode(core::EventPacket{0ms, 9ms, {{1ms, 1, 1, true}}}));
+    log.write(msg::kPicture.name,
+              msg::encode(core::Picture{9ms, core::Image<std::uint8_t>({8, 6})}));
+    log.write(msg::kPicture.name,
+              msg::encode(core::Picture{19ms, core::Image<std::uint8_t>({8, 6})}));
+    log.finish();
+  }
+  const json found = info("run.lcm");
+  EXPECT_EQ(found["width_px"], 8);
+  EXPECT_EQ(found["others"], (json{{"NIGHTJAR_PICTURE", 2}, {"NIGHTJAR_VEHICLE_STATE", 1}}));
+  ASSERT_EQ(run_program("convert run.lcm a.aedat4"), 0) << err;
+  EXPECT_EQ(err,
+            "nightjar: warning: left out 2 messages NIGHTJAR_PICTURE\n"
+            "nightjar: warning: left out 1 messages NIGHTJAR_VEHICLE_STATE\n");
+}
+
 TEST_F(RecordingCommandsTest, an_independent_reader_finds_the_same_in_the_real_recording) {
   const auto folder = test::data_folder();
   if (!folder) GTEST_SKIP() << "no folder of recordings: set NIGHTJAR_DATA";
@@ -139,13 +211,18 @@ TEST_F(RecordingCommandsTest, an_independent_reader_finds_the_same_in_the_real_r
   convert(road + " road.aedat");
   convert("road.aedat road.aedat4");
   EXPECT_EQ(*read_independently("road.aedat4"), *original);
+  convert(road + " road.lcm");
+  convert("road.lcm again.aedat4");
+  EXPECT_EQ(*read_independently("again.aedat4"), *original);
 }
 
 TEST_F(RecordingCommandsTest, convert_says_what_it_leaves_out) {
   ASSERT_EQ(run_program("convert sample.aedat4 a.txt"), 0);
   EXPECT_EQ(err,
-            "nightjar: warning: a.txt cannot carry the sensor's size and name, 3 frames, 100 IMU "
-            "samples, 10 triggers\n");
+            "nightjar: warning: a.txt cannot carry the sensor's size and name\n"
+            "nightjar: warning: a.txt cannot carry 3 frames\n"
+            "nightjar: warning: a.txt cannot carry 100 IMU samples\n"
+            "nightjar: warning: a.txt cannot carry 10 triggers\n");
   ASSERT_EQ(run_program("convert a.txt b.aedat4 --size 37x23 --compression zstd --quiet"), 0);
   EXPECT_EQ(out + err, "");
   EXPECT_EQ(info("b.aedat4")["events"], info("sample.aedat4")["events"]);

@@ -38,6 +38,9 @@ TEST_F(TrialCommandTest, prints_every_score_as_json) {
 TEST_F(TrialCommandTest, refuses_what_it_does_not_know_in_one_line) {
   expect_refused("--method nothing", "--method = nothing, allowed esi, accumulator");
   expect_refused("--method esi --method esi", "--method = esi, allowed once");
+  expect_refused("--motion slow --motion fast --motion slow", "--motion = slow, allowed once");
+  expect_refused("--seed 3 --seed 3", "--seed = 3, allowed once");
+  expect_refused("--illuminance 5 --illuminance 5", "--illuminance = 5, allowed once");
   expect_refused("--motion dance", "--motion = dance, allowed hover, slow, fast, shake");
   expect_refused("--illuminance 0", "--illuminance");
   expect_refused("--seed -1", "--seed");

@@ -225,5 +225,18 @@ TEST(Controller, RefusesAConfigOutOfRange) {
   EXPECT_THROW(Controller{config}, std::invalid_argument);
 }
 
+TEST(Controller, TurnsLittleAfterAPause) {
+  Controller controller(steady());
+  Plant plant;
+  FlightGoal goal;
+  goal.heading_rad = 2.0;
+  controller.step(plant.state, goal);
+  plant.state.t += std::chrono::seconds(3);
+  const auto setpoint = controller.step(plant.state, goal);
+  const Eigen::Vector3d forward = setpoint.q_world_body * Eigen::Vector3d::UnitX();
+  // The longest step counted is 0.15 s, at 1 rad/s; tilting changes it in the second order.
+  EXPECT_NEAR(std::atan2(forward.y(), forward.x()), 0.15, 0.02);
+}
+
 }  // namespace
 }  // namespace nightjar::tracker

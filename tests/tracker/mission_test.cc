@@ -286,5 +286,30 @@ TEST(Mission, RefusesAConfigOutOfRange) {
   EXPECT_THROW(Mission{config}, std::invalid_argument);
 }
 
+TEST(Mission, MovesItsGoalLittleAfterPicturesWereAway) {
+  Flight flight;
+  flight.reach(MissionPhase::descend);
+  for (int i = 0; i < 50; ++i) flight.step();
+  const double height_m = flight.goal.p_world_m.z();
+  flight.vehicle.t += std::chrono::seconds(3);  // somebody else held it there
+  flight.step();
+  ASSERT_EQ(flight.mission.phase(), MissionPhase::descend);
+  // The longest step counted is 0.15 s; 3 s would be 0.75 m.
+  EXPECT_NEAR(flight.goal.p_world_m.z(), height_m, 0.15 * MissionConfig{}.descend_speed_m_s + 1e-9);
+}
+
+TEST(Mission, CountsNoConditionAsHeldWhilePicturesWereAway) {
+  MissionConfig config = Flight::quick();
+  config.land_after_s = 0;
+  Flight flight(config);
+  flight.reach(MissionPhase::track);
+  flight.fly(0.3);  // of 0.5 s that alignment must last
+  flight.vehicle.t += std::chrono::seconds(3);
+  flight.fly(0.45);
+  EXPECT_EQ(flight.mission.phase(), MissionPhase::track);
+  flight.fly(0.1);
+  EXPECT_EQ(flight.mission.phase(), MissionPhase::descend);
+}
+
 }  // namespace
 }  // namespace nightjar::tracker

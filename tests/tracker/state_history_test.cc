@@ -27,7 +27,7 @@ void expect_same(const core::VehicleState& a, const core::VehicleState& b) {
 }
 
 TEST(StateHistory, KnowsNothingBeforeTheFirstState) {
-  StateHistory history{milliseconds(200)};
+  StateHistory history{milliseconds(200), milliseconds(100)};
   EXPECT_FALSE(history.at(Time{}));
   history.add(state_at(milliseconds(10)));
   EXPECT_FALSE(history.at(milliseconds(9)));
@@ -35,29 +35,29 @@ TEST(StateHistory, KnowsNothingBeforeTheFirstState) {
 }
 
 TEST(StateHistory, InterpolatesBetweenStates) {
-  StateHistory history{milliseconds(200)};
+  StateHistory history{milliseconds(200), milliseconds(100)};
   for (int ms = 0; ms <= 100; ms += 10) history.add(state_at(milliseconds(ms)));
   for (const int ms : {0, 3, 10, 57, 99, 100})
     expect_same(*history.at(milliseconds(ms)), state_at(milliseconds(ms)));
 }
 
-TEST(StateHistory, ExtrapolatesAfterTheNewestForAsLongAsItRemembers) {
-  StateHistory history{milliseconds(200)};
+TEST(StateHistory, ExtrapolatesAfterTheNewestForAsLongAsItMay) {
+  StateHistory history{milliseconds(200), milliseconds(100)};
   history.add(state_at(milliseconds(100)));
   expect_same(*history.at(milliseconds(112)), state_at(milliseconds(112)));
-  EXPECT_TRUE(history.at(milliseconds(300)));
-  EXPECT_FALSE(history.at(milliseconds(301)));
+  EXPECT_TRUE(history.at(milliseconds(200)));
+  EXPECT_FALSE(history.at(milliseconds(201)));
 }
 
 TEST(StateHistory, ForgetsWhatIsOlderThanItsSpan) {
-  StateHistory history{milliseconds(200)};
+  StateHistory history{milliseconds(200), milliseconds(100)};
   for (int ms = 0; ms <= 1000; ms += 10) history.add(state_at(milliseconds(ms)));
   EXPECT_FALSE(history.at(milliseconds(799)));
   EXPECT_TRUE(history.at(milliseconds(800)));
 }
 
 TEST(StateHistory, RefusesAStateThatIsNotNewer) {
-  StateHistory history{milliseconds(200)};
+  StateHistory history{milliseconds(200), milliseconds(100)};
   history.add(state_at(milliseconds(10)));
   EXPECT_THROW(history.add(state_at(milliseconds(10))), std::invalid_argument);
 }

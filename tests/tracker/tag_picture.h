@@ -81,6 +81,22 @@ inline core::Picture tag_picture(const core::CameraModel& camera,
   return picture;
 }
 
+/// What a camera with a lens sees of a scene that its pinhole() sees as `picture`; mid-gray
+/// where that picture ends.
+inline core::Picture through_lens(const core::CameraModel& camera, core::Picture picture) {
+  cv::Mat x(camera.size.height_px, camera.size.width_px, CV_32F), y = x.clone(), seen;
+  for (int row = 0; row < x.rows; ++row)
+    for (int column = 0; column < x.cols; ++column) {
+      const Eigen::Vector2d from = camera.undistorted({column, row});
+      x.at<float>(row, column) = static_cast<float>(from.x());
+      y.at<float>(row, column) = static_cast<float>(from.y());
+    }
+  const cv::Mat pinhole(x.rows, x.cols, CV_8U, picture.gray.pixels().data());
+  cv::remap(pinhole, seen, x, y, cv::INTER_LINEAR, cv::BORDER_CONSTANT, cv::Scalar(128));
+  std::copy(seen.begin<std::uint8_t>(), seen.end<std::uint8_t>(), picture.gray.pixels().begin());
+  return picture;
+}
+
 /// Gray noise on every pixel, and a share of the pixels black or white.
 inline void add_noise(core::Picture& picture, double sigma, double salt_pepper_share,
                       core::Random& random) {

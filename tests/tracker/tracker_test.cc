@@ -27,8 +27,9 @@ Eigen::Isometry3d T_body_camera() {
 /// A point-mass UAV over a tag on a CTRV course, pictures rendered with noise.
 class World {
  public:
-  explicit World(const TrackerConfig& config = quick())
-      : tracker(config, test_camera(), T_body_camera()),
+  explicit World(const TrackerConfig& config = quick(), const core::Lens& lens = {})
+      : tracker(config, camera_with(lens), T_body_camera()),
+        camera_(camera_with(lens)),
         delay_(core::from_seconds(config.picture_delay_ms * 1e-3)) {
     plant.state.p_world_body_m = {-0.15, 0.1, 1.5};
     target << 0, 0, kBoard_m, 0.5, 0.5, 0.0;
@@ -79,15 +80,23 @@ class World {
     TargetState target;
   };
 
-  static core::Picture picture_of(const Moment& moment) {
+  static core::CameraModel camera_with(const core::Lens& lens) {
+    core::CameraModel camera = test_camera();
+    camera.lens = lens;
+    return camera;
+  }
+
+  core::Picture picture_of(const Moment& moment) const {
     Eigen::Isometry3d T_world_tag = Eigen::Isometry3d::Identity();
     T_world_tag.linear() =
         Eigen::AngleAxisd(moment.target[3], Eigen::Vector3d::UnitZ()).toRotationMatrix();
     T_world_tag.translation() = moment.target.head<3>();
-    return tag_picture(test_camera(),
-                       (moment.uav.T_world_body() * T_body_camera()).inverse() * T_world_tag, 0, 3);
+    const core::Picture pinhole = tag_picture(
+        test_camera(), (moment.uav.T_world_body() * T_body_camera()).inverse() * T_world_tag, 0, 3);
+    return camera_.lens.is_ideal() ? pinhole : through_lens(camera_, pinhole);
   }
 
+  core::CameraModel camera_;
   Time delay_;
   std::deque<Moment> past_;
   core::Random random_ = core::random_stream(1, "pictures");
@@ -116,6 +125,27 @@ TEST(Tracker, TracksATurningTargetAndLandsOnIt) {
   // mission asks for 10 cm.
   EXPECT_LT(world.offset_m(), 0.05);
   EXPECT_GT(windows, 0.6 * pictures);
+}
+
+TEST(Tracker, tracks_through_a_lens_that_bends_the_picture) {
+  TrackerConfig config = World::quick();
+  config.mission.track_height_m = 0.7;  // the tag fills a third of the picture
+  config.window.margin_px = 9;          // AprilTag's rim of 8 px and one more
+  config.window.sigmas = 0;
+  World world(config, {.k1 = 0.8});  // 30 px at the picture's rim
+  double worst_estimate_m = 0;
+  int windows = 0, found = 0, pictures = 0;
+  for (int i = 0; i < 250; ++i) {
+    const auto output = world.step();
+    if (world.plant.state.t < std::chrono::seconds(2)) continue;
+    ++pictures;
+    windows += !output.whole_picture;
+    found += output.fix != FixResult::none;
+    worst_estimate_m = std::max(worst_estimate_m, world.error_m);
+  }
+  EXPECT_LT(worst_estimate_m, 0.03);  // as without a lens, see above
+  EXPECT_GT(found, 0.95 * pictures);
+  EXPECT_GT(windows, 0.9 * pictures);
 }
 
 TEST(Tracker, FindsTheTagAgainAfterAShortLossAndSearchesAfterALongOne) {
@@ -192,6 +222,10 @@ TEST(Tracker, RefusesPicturesItCannotUse) {
   core::Picture picture{.t = {}, .gray = core::Image<std::uint8_t>(test_camera().size)};
   EXPECT_THROW(tracker.process(picture), std::invalid_argument);  // no vehicle state yet
   tracker.add_vehicle_state({});
+  picture.t = std::chrono::milliseconds(100);  // as old as max_state_age_ms lets a state be
+  EXPECT_NO_THROW(tracker.process(picture));
+  picture.t += Time(1);
+  EXPECT_THROW(tracker.process(picture), std::invalid_argument);
   picture.gray = core::Image<std::uint8_t>({320, 240});
   EXPECT_THROW(tracker.process(picture), std::invalid_argument);
 }

@@ -150,7 +150,8 @@ void make_samples(std::uint64_t seed, const std::string& folder) {
                         seed);
   const core::Time end =
       core::from_seconds(between(1, motion == sim::CarryMotion::hover ? 5 : 2.5, random));
-  core::Time next_sample = core::from_seconds(between(0.25, 0.6, random));
+  // Some first pictures come early: recordings can be short.
+  core::Time next_sample = core::from_seconds(log_between(0.012, 0.5, random));
 
   sim::SimulatedCamera camera(sensor.config, kSensor, sensor.illuminance_lux, seed);
   esi::EsiNet net({}, kSensor);
@@ -169,7 +170,8 @@ void make_samples(std::uint64_t seed, const std::string& folder) {
     camera.take_frames();
     if (now < next_sample) continue;
     write_patches(net.features(now), luminance_lux, random, features.stream(), truth.stream());
-    next_sample = now + core::from_seconds(between(0.1, 0.4, random));
+    const double soon_s = between(0.5, 1.5, random) * core::seconds(now);
+    next_sample = now + core::from_seconds(std::min(soon_s, between(0.1, 0.4, random)));
   }
   features.finish();
   truth.finish();

@@ -1,11 +1,12 @@
-"""An independent reader of AEDAT4 and AEDAT 3.1, for tests: nothing but numpy, no code
-shared with the program. Prints what it found as JSON:
+"""An independent reader of AEDAT4, AEDAT 3.1, RPG text and our LCM logs, for tests: nothing
+but numpy, no code shared with the program. Prints what it found as JSON:
 
-    python3 read_aedat.py FILE
+    python3 read_recording.py FILE
 
-Written from the formats' descriptions; LZ4 blocks are unpacked here, ZSTD is not known.
+Written from the formats' descriptions (of logs: LCM's event log and msg/*.lcm); LZ4 blocks are unpacked here, ZSTD is not known.
 Sums are over whole numbers, so that they compare exactly.
 """
+import decimal
 import json
 import struct
 import sys
@@ -185,8 +186,69 @@ def read_aedat31(data):
     return found.summary()
 
 
+def read_text(data):
+    found = Found("text")
+    rows = [line.split() for line in data.decode().splitlines()]
+    t = np.array([int(decimal.Decimal(row[0]) * 1000000) for row in rows], np.int64)
+    rest = np.array([[int(word) for word in row[1:]] for row in rows], np.int64).reshape(-1, 3)
+    found.events.append([t, rest[:, 0], rest[:, 1], rest[:, 2]])
+    return found.summary()
+
+
+def lcm_messages(data):
+    """Channel and content, without the 8 bytes that tell the type."""
+    at, number = 0, 0
+    while at < len(data):
+        mark, event, _, name, size = struct.unpack_from(">Iqqii", data, at)
+        assert mark == 0xEDA1DA01 and event == number
+        at += 28
+        number += 1
+        yield data[at:at + name].decode(), data[at + name + 8:at + name + size]
+        at += name + size
+
+
+def read_lcm(data):
+    """Samples: time, temperature, specific force (m/s2), rate (rad/s), camera axes."""
+    found = Found("LCM log")
+    readout, temperature = None, None
+    for channel, body in lcm_messages(data):
+        if channel == "NIGHTJAR_SENSOR":
+            _, width, height, length = struct.unpack_from(">qiii", body)
+            found.name += " %dx%d %s" % (width, height, body[20:20 + length - 1].decode())
+        elif channel == "NIGHTJAR_EVENTS":
+            _, begin, count = struct.unpack_from(">qqi", body)
+            words = np.frombuffer(body, ">u8", count, 20).astype(np.uint64)
+            one = np.uint64(0xFFFF)
+            found.events.append([begin + (words >> np.uint64(33)).astype(np.int64), words & one,
+                                 words >> np.uint64(16) & one, words >> np.uint64(32) & np.uint64(1)])
+        elif channel == "NIGHTJAR_APS_READOUT":
+            readout = struct.unpack(">qqqii", body)
+        elif channel == "NIGHTJAR_APS_FRAME":
+            end, begin, width, height, _, count = struct.unpack_from(">qqiiii", body)
+            assert readout[0] == end
+            found.frames.append(frame_summary(
+                [readout[1], readout[2], begin, end], [width, height, readout[3], readout[4]],
+                np.frombuffer(body, ">u2", count, 32)))
+        elif channel == "NIGHTJAR_IMU_TEMPERATURE":
+            temperature = struct.unpack(">qf", body)
+        elif channel == "NIGHTJAR_IMU":
+            t, *values = struct.unpack(">q6d", body)
+            assert temperature[0] == t
+            found.imu.append([t, temperature[1]] + values[3:] + values[:3])
+        elif channel == "NIGHTJAR_TRIGGER":
+            found.triggers.append(list(struct.unpack(">qi", body)))
+    return found.summary()
+
+
+def reader_of(content):
+    if content.startswith(b"\xed\xa1\xda\x01"):
+        return read_lcm
+    if content.startswith(b"#!AER-DAT4.0\r\n"):
+        return read_aedat4
+    return read_aedat31 if content.startswith(b"#!AER-DAT3.1") else read_text
+
+
 if __name__ == "__main__":
     with open(sys.argv[1], "rb") as file:
         content = file.read()
-    reader = read_aedat4 if content.startswith(b"#!AER-DAT4.0\r\n") else read_aedat31
-    print(json.dumps(reader(content)))
+    print(json.dumps(reader_of(content)(content)))
