@@ -57,7 +57,7 @@ struct PowerParts {
 [[gnu::always_inline]] inline PowerParts power_parts(const LeakySum& c, std::uint32_t age_us) {
   const float u = spent(c, age_us);
   constexpr float kLeastLeft = 0x1p-24f;  // 1 - u may have been rounded to 0
-  const float left = 1.0f - u > kLeastLeft ? 1.0f - u : kLeastLeft;
+  const float left = select(1.0f - u > kLeastLeft, 1.0f - u, kLeastLeft);
   constexpr std::uint32_t kSqrtHalf = 0x3f3504f3;
   const std::uint32_t bits = std::bit_cast<std::uint32_t>(left) - kSqrtHalf;
   const std::uint32_t octave =
