@@ -34,8 +34,7 @@ void ImuScale::take(std::string_view line) {
 
 std::optional<RecordedImu> Aedat2Imu::add(unsigned code, std::int16_t count, core::Time t) {
   if (code != have_) {
-    lost_ += have_;
-    have_ = 0;
+    finish();
     if (code != 0) {
       ++lost_;
       return std::nullopt;
@@ -46,6 +45,11 @@ std::optional<RecordedImu> Aedat2Imu::add(unsigned code, std::int16_t count, cor
   if (have_ < counts_.size()) return std::nullopt;
   have_ = 0;
   return sample();
+}
+
+void Aedat2Imu::finish() {
+  lost_ += have_;
+  have_ = 0;
 }
 
 RecordedImu Aedat2Imu::sample() const {

@@ -29,6 +29,9 @@ class Aedat2Imu {
   /// `code` 0 to 7 says which of the seven it is. The sample that it completes.
   std::optional<RecordedImu> add(unsigned code, std::int16_t count, core::Time t);
 
+  /// To be called at the end of the file, which cuts off the sample at hand.
+  void finish();
+
   /// Records that belong to no whole sample, so far.
   std::uint64_t records_lost() const { return lost_; }
 

@@ -80,6 +80,7 @@ bool Aedat2Reader::next(RecordingPart& part) {
     if (!part.empty()) return true;
   }
   take(frames_->finish(), part);
+  imu_->finish();
   count_lost();
   return !part.empty();
 }

@@ -19,13 +19,16 @@ std::optional<RecordedFrame> ApsAssembler::add(const ApsRead& read) {
   }
   std::optional<RecordedFrame> over;
   if (!read.signal) {
-    if (stamp_(read.x, read.y) / 2 == frame_) over = take_frame();
+    const bool again = stamp_(read.x, read.y) / 2 == frame_;
+    const bool settled = astray_ && signals_ > 0 && signals_ == resets_;
+    if (again || settled) over = take_frame();
     add_reset(read);
   } else if (stamp_(read.x, read.y) == 2 * frame_) {
     add_signal(read);
     if (signals_ == size_.pixels()) over = take_frame();
   } else {
     ++signals_without_reset_;
+    astray_ = astray_ || resets_ > 0;  // else it is of a frame before the one at hand
   }
   return over;
 }
@@ -60,13 +63,13 @@ std::optional<RecordedFrame> ApsAssembler::finish() {
 std::optional<RecordedFrame> ApsAssembler::take_frame() {
   const core::Resolution around{right_ - left_ + 1, bottom_ - top_ + 1};
   std::optional<RecordedFrame> frame;
-  if (signals_ > 0 && signals_ == resets_ && signals_ == around.pixels())
+  if (!astray_ && signals_ > 0 && signals_ == resets_ && signals_ == around.pixels())
     frame = cut_out();
   else
     ++frames_lost_;
   ++frame_;
   resets_ = signals_ = 0;
-  rolling_ = false;
+  rolling_ = astray_ = false;
   return frame;
 }
 

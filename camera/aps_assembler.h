@@ -23,7 +23,9 @@ struct ApsRead {
 ///
 /// A frame is complete when each pixel of the sensor has both reads. One of fewer pixels is
 /// over when a pixel is reset again, or at finish(): it is a region of interest if its pixels
-/// fill a rectangle, and has lost reads otherwise.
+/// fill a rectangle, and has lost reads otherwise. One that had a signal read without its reset
+/// has lost that, and is over as soon as a reset follows when all others have their signals: so
+/// what the next frame has of the missing pixels is not taken for this one's.
 ///
 /// The exposure ends with the first signal read; it begins with the last reset read, as in a
 /// global shutter, or where signals came before that (a rolling shutter) with the first:
@@ -61,6 +63,7 @@ class ApsAssembler {
   int resets_ = 0, signals_ = 0;                     ///< Of the frame at hand.
   core::Time first_reset_{}, last_reset_{}, first_signal_{}, last_signal_{};
   bool rolling_ = false;
+  bool astray_ = false;  ///< The frame at hand had a signal without its reset.
   std::uint64_t frames_lost_ = 0;
   std::uint64_t signals_without_reset_ = 0;
 };

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "camera/recording_intake.h"
-#include "camera/trigger_types.h"
 #include "core/config_check.h"
+#include "core/trigger.h"
 
 namespace nightjar::camera {
 namespace {
@@ -49,7 +49,7 @@ void RecordingCheck::check(const RecordingPart& part) {
   for (const RecordedImu& sample : part.imu) check_time("IMU sample", sample.t, imu_);
   for (const Trigger& trigger : part.triggers) {
     check_time("trigger", trigger.t, trigger_);
-    core::check_range("trigger.type", trigger.type, 0, kMostTriggerType);
+    core::check_range("trigger.type", trigger.type, 0, core::kMostTriggerType);
   }
 }
 

@@ -10,7 +10,6 @@ inline constexpr int kTimestampReset = 1;
 inline constexpr int kExternalRising = 2;
 inline constexpr int kExternalFalling = 3;
 inline constexpr int kExternalPulse = 4;
-inline constexpr int kMostTriggerType = 127;  // seven bits in AEDAT 3.1
 
 /// libcaer's number for AEDAT4's number of a trigger, and the reverse; nothing where the
 /// other side has none.

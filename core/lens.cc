@@ -59,16 +59,25 @@ std::optional<Eigen::Vector2d> Lens::distort(const Eigen::Vector2d& ideal) const
   return seen_at(*this, ideal);
 }
 
-// Newton from the seen point: along a radius the polynomial bends one way up to its turn, so
-// all steps come from one side.
+// Newton from the seen point, or from nearer to the axis where the lens shows nothing there. A
+// polynomial that bends both ways (k1 > 0 > k3) throws single steps beyond its turn or past the
+// goal: halved until they stay inside and come nearer, which some length always does.
 std::optional<Eigen::Vector2d> Lens::undistort(const Eigen::Vector2d& seen) const {
   constexpr int kIterations = 50;  // 4 to 6 are the rule; near the turn it takes more
+  constexpr int kHalvings = 100;
   constexpr double kClose = 1e-12;
+  const auto inside = [&](const Eigen::Vector2d& p) { return grows_up_to(*this, p.squaredNorm()); };
   Eigen::Vector2d p = seen;
-  for (int i = 0; i < kIterations && grows_up_to(*this, p.squaredNorm()); ++i) {
+  for (int i = 0; i < kHalvings && !inside(p); ++i) p *= 0.5;
+  for (int i = 0; i < kIterations && inside(p); ++i) {
     const Eigen::Vector2d error = seen_at(*this, p) - seen;
     if (error.norm() < kClose) return p;
-    p -= derivative(*this, p).inverse() * error;
+    Eigen::Vector2d step = derivative(*this, p).inverse() * error;
+    const auto is_bad = [&] {
+      return !inside(p - step) || (seen_at(*this, p - step) - seen).norm() >= error.norm();
+    };
+    for (int k = 0; k < kHalvings && is_bad(); ++k) step *= 0.5;
+    p -= step;
   }
   return std::nullopt;
 }

@@ -24,8 +24,14 @@ std::uint64_t pack(const core::Event& event, core::Time begin) {
          std::uint64_t{event.y} << kYShift | event.x;
 }
 
-core::Event unpack(std::uint64_t bits, core::Time begin) {
-  return {.t = begin + core::Time(static_cast<std::int64_t>(bits >> kTimeShift)),
+/// Throws for an event behind the packet's end, whose time may be none that 64 bits hold.
+core::Event unpack(std::uint64_t bits, core::Time begin, core::Time length) {
+  const core::Time since_begin(static_cast<std::int64_t>(bits >> kTimeShift));
+  if (since_begin > length)
+    throw std::invalid_argument(
+        fmt::format("event packet: event {} us after its beginning, allowed 0 to {} us",
+                    since_begin.count(), length.count()));
+  return {.t = begin + since_begin,
           .x = static_cast<std::uint16_t>(bits),
           .y = static_cast<std::uint16_t>(bits >> kYShift),
           .on = (bits >> kOnShift & 1) != 0};
@@ -73,10 +79,11 @@ core::EventPacket decode(std::span<const std::uint8_t> bytes) {
   const auto message = read_head<nightjar_lcm::event_packet_t>(bytes, kCountOffset);
   check_interval(message.begin_us, message.time_us);
   core::EventPacket packet{core::Time(message.begin_us), core::Time(message.time_us), {}};
+  const core::Time length = packet.end - packet.begin;
   const std::span<const std::uint8_t> words = words_of(bytes, kCountOffset);
   packet.events.reserve(words.size() / kWordBytes);
   for (std::size_t i = 0; i < words.size(); i += kWordBytes)
-    packet.events.push_back(unpack(get_word(&words[i]), packet.begin));
+    packet.events.push_back(unpack(get_word(&words[i]), packet.begin, length));
   check_events(packet);
   return packet;
 }

@@ -5,13 +5,12 @@
 #include <nightjar_lcm/sensor_t.hpp>
 #include <nightjar_lcm/trigger_t.hpp>
 
+#include "core/trigger.h"
 #include "msg/convert.h"
 #include "msg/lcm_bytes.h"
 
 namespace nightjar::msg {
 namespace {
-
-constexpr int kMostTriggerType = 127;  // seven bits in AEDAT 3.1
 
 void check(const SensorNote& sensor) {
   for (const int side_px : {sensor.size.width_px, sensor.size.height_px})
@@ -22,9 +21,9 @@ void check(const SensorNote& sensor) {
 }
 
 void check(const TriggerNote& trigger) {
-  if (trigger.type < 0 || trigger.type > kMostTriggerType)
+  if (trigger.type < 0 || trigger.type > core::kMostTriggerType)
     throw std::invalid_argument(
-        fmt::format("trigger_t: type = {}, allowed 0 to {}", trigger.type, kMostTriggerType));
+        fmt::format("trigger_t: type = {}, allowed 0 to {}", trigger.type, core::kMostTriggerType));
 }
 
 }  // namespace

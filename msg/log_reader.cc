@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
@@ -10,7 +11,9 @@
 namespace nightjar::msg {
 namespace {
 
+constexpr std::string_view kMark("\xed\xa1\xda\x01");  // kLogMark
 constexpr std::size_t kMarkBytes = 4;
+constexpr std::size_t kBlockBytes = 65536;
 
 /// Most significant byte first.
 std::uint32_t u32(const char* bytes) {
@@ -42,37 +45,45 @@ LogReader::LogReader(std::unique_ptr<std::istream> in, std::string name)
   length_ = static_cast<std::uint64_t>(length);
 }
 
+void LogReader::read_file(std::uint64_t at, std::size_t count, char* to) {
+  in_->seekg(static_cast<std::streamoff>(at));
+  in_->read(to, static_cast<std::streamsize>(count));
+  if (!*in_) throw std::invalid_argument(fmt::format("{}: byte {}: cannot be read", name_, at));
+}
+
 /// `count` bytes from `at` on, if the file has them.
 bool LogReader::read(std::uint64_t at, std::size_t count, char* to) {
   if (at + count > length_) return false;
-  if (static_cast<std::uint64_t>(in_->tellg()) != at) in_->seekg(static_cast<std::streamoff>(at));
-  in_->read(to, static_cast<std::streamsize>(count));
-  if (!*in_) throw std::invalid_argument(fmt::format("{}: byte {}: cannot be read", name_, at));
+  if (at >= block_begin_ && at + count <= block_begin_ + block_.size())
+    std::copy_n(block_.data() + (at - block_begin_), count, to);
+  else
+    read_file(at, count, to);
   return true;
+}
+
+/// The block's bytes from `at` on: a mark's at least, which the file must have there.
+std::string_view LogReader::block_from(std::uint64_t at) {
+  if (at < block_begin_ || at + kMarkBytes > block_begin_ + block_.size()) {
+    block_.resize(std::min<std::uint64_t>(kBlockBytes, length_ - at));
+    block_begin_ = at;
+    read_file(at, block_.size(), block_.data());
+  }
+  return std::string_view(block_).substr(at - block_begin_);
 }
 
 /// Goes on to the next mark from `next_` on, counting what lies before it.
 bool LogReader::find_mark() {
-  std::array<char, kMarkBytes> four;
-  begin_ = next_;
-  if (!read(begin_, four.size(), four.data())) {
-    lost_ += length_ - begin_;
-    begin_ = next_ = length_;
-    return false;
+  for (begin_ = next_; begin_ + kMarkBytes <= length_;) {
+    const std::string_view block = block_from(begin_);
+    const std::size_t at = block.find(kMark);
+    begin_ += at != block.npos ? at : block.size() - (kMarkBytes - 1);
+    if (at == block.npos) continue;
+    lost_ += begin_ - next_;
+    return true;
   }
-  std::uint32_t last = u32(four.data());
-  for (std::uint64_t end = begin_ + kMarkBytes; last != kLogMark; ++end) {
-    char byte = 0;
-    if (!read(end, 1, &byte)) {
-      lost_ += length_ - next_;
-      begin_ = next_ = length_;
-      return false;
-    }
-    last = last << 8 | static_cast<unsigned char>(byte);
-    begin_ = end + 1 - kMarkBytes;
-  }
-  lost_ += begin_ - next_;
-  return true;
+  lost_ += length_ - next_;
+  begin_ = next_ = length_;
+  return false;
 }
 
 /// Of the message whose mark is at `begin_`, if it can be one: behind it the next message

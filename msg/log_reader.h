@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "msg/log_format.h"
 #include "msg/message.h"
@@ -49,7 +50,9 @@ class LogReader {
 
   bool find_mark();
   std::optional<Head> read_head();
+  std::string_view block_from(std::uint64_t at);
   bool read(std::uint64_t at, std::size_t count, char* to);
+  void read_file(std::uint64_t at, std::size_t count, char* to);
 
   std::unique_ptr<std::istream> in_;
   std::string name_;
@@ -57,6 +60,8 @@ class LogReader {
   std::uint64_t begin_ = 0;  ///< Of the message at hand, ...
   std::uint64_t next_ = 0;   ///< ... and of what comes behind it.
   std::uint64_t lost_ = 0;
+  std::string block_;              ///< The part of the file that is searched for marks, ...
+  std::uint64_t block_begin_ = 0;  ///< ... and where it begins.
 };
 
 /// Whether the file begins as LCM logs do.

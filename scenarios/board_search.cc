@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 
 #include "camera/frame_source.h"
 #include "camera/gray_level.h"
+#include "scenarios/reconstruction.h"
+#include "scenarios/recording_info.h"
 
 namespace nightjar::scenarios {
 namespace {
@@ -72,7 +73,8 @@ BoardSearch search_frames(camera::RecordingReader& recording, BoardFinder& finde
     }
     on_progress(recording.progress());
   }
-  if (search.pictures == 0) throw std::invalid_argument("the recording has no frames");
+  if (search.pictures == 0) throw EmptyRecording("the recording has no frames");
+  search.warning = fault_text(recording.faults());
   return search;
 }
 
@@ -83,10 +85,12 @@ BoardSearch search_events(camera::RecordingReader& recording, const ReconstructO
     on_progress(std::clamp(done_s / std::max(end_s, 1e-6), 0.0, 1.0));
   };
   BoardSearch search;
-  reconstruct(recording, mine, [&](const core::Picture& picture, auto) {
-    const double since_s = static_cast<double>(search.pictures + 1) / options.rate_hz;
-    look(search, finder, picture, time_name(core::from_seconds(since_s)));
-  });
+  std::optional<core::Time> begin;
+  const auto take = [&](const core::Picture& picture, auto) {
+    if (!begin) begin = picture.t - core::from_seconds(1 / options.rate_hz);
+    look(search, finder, picture, time_name(picture.t - *begin));
+  };
+  search.warning = warning(reconstruct(recording, mine, take));
   search.size = recording.size();
   return search;
 }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "camera/recording.h"
@@ -16,6 +17,7 @@ struct BoardSearch {
   core::Resolution size;  ///< Of all pictures.
   std::uint64_t pictures = 0;
   std::vector<BoardView> views;
+  std::string warning;  ///< What could not be used, in one line; empty when all was.
 };
 
 /// Called after every picture with the share that is done, 0 to 1. May throw to stop.
@@ -26,7 +28,7 @@ BoardSearch search_pictures(const std::filesystem::path& folder, BoardFinder& fi
                             const SearchProgress& on_progress);
 
 /// Looks in the recording's frames of the active pixels, black around those that are smaller
-/// than the sensor. Throws std::invalid_argument when there are none.
+/// than the sensor. Throws EmptyRecording when there are none.
 BoardSearch search_frames(camera::RecordingReader& recording, BoardFinder& finder,
                           const SearchProgress& on_progress);
 

@@ -21,12 +21,14 @@ constexpr std::size_t kLeastTags = 2;  // four corners hardly tell a tilt from n
 
 /// Corners brought to where the grey levels' gradients say they are (Förstner and Gülch 1987, as
 /// OpenCV has it): the finder's own are off by some hundredths of a pixel in the same direction,
-/// which a focal length feels. The window keeps clear of the neighbours.
-void refine(const cv::Mat& gray, int columns, std::vector<cv::Point2f>& corners) {
+/// which a focal length feels. The window keeps clear of the neighbours along rows and columns.
+void refine(const cv::Mat& gray, std::size_t columns, std::vector<cv::Point2f>& corners) {
   double nearest_px = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < corners.size(); ++i)
-    if (i % static_cast<std::size_t>(columns) != 0)
-      nearest_px = std::min(nearest_px, cv::norm(corners[i] - corners[i - 1]));
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    if (i % columns != 0) nearest_px = std::min(nearest_px, cv::norm(corners[i] - corners[i - 1]));
+    if (i >= columns)
+      nearest_px = std::min(nearest_px, cv::norm(corners[i] - corners[i - columns]));
+  }
   const int half_px = std::clamp(static_cast<int>(0.35 * nearest_px), 2, 8);
   cv::cornerSubPix(gray, corners, {half_px, half_px}, {-1, -1},
                    {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 40, 1e-3});
@@ -47,7 +49,7 @@ class CheckerboardFinder : public BoardFinder {
     if (!cv::findChessboardCornersSB(gray, {board_.columns, board_.rows}, corners,
                                      cv::CALIB_CB_NORMALIZE_IMAGE))
       return std::nullopt;
-    refine(gray, board_.columns, corners);
+    refine(gray, static_cast<std::size_t>(board_.columns), corners);
     BoardView view;
     for (int i = 0; const cv::Point2f& corner : corners) {
       view.corner_m.emplace_back(board_.square_m * (i % board_.columns),

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "core/config_check.h"
+#include "scenarios/intrinsics.h"
+#include "scenarios/intrinsics_config.h"
 #include "scenarios/scenario_error.h"
 
 namespace nightjar::scenarios {
@@ -22,22 +24,32 @@ struct Number {
   double value, sigma;
 };
 
-/// All that is estimated, in the file's order.
-std::array<Number, 9> numbers(const Calibration& calibration) {
-  const core::CameraModel &c = calibration.camera, &s = calibration.sigma;
-  return {{{"fx_px", c.fx_px, s.fx_px},
-           {"fy_px", c.fy_px, s.fy_px},
-           {"cx_px", c.cx_px, s.cx_px},
-           {"cy_px", c.cy_px, s.cy_px},
-           {"k1", c.lens.k1, s.lens.k1},
-           {"k2", c.lens.k2, s.lens.k2},
-           {"p1", c.lens.p1, s.lens.p1},
-           {"p2", c.lens.p2, s.lens.p2},
-           {"k3", c.lens.k3, s.lens.k3}}};
+/// Gathers what a fit estimates: all members but the size.
+struct Estimates {
+  std::vector<std::pair<const char*, double>> all;
+
+  void field(const char* name, const double& value, double, double, const core::Origin& = {}) {
+    all.emplace_back(name, value);
+  }
+  void field(const char*, const int&, int, int, const core::Origin& = {}) {}
+};
+
+/// In the file's order.
+std::vector<Number> numbers(const Calibration& calibration) {
+  IntrinsicsConfig camera = intrinsics_of(calibration.camera);
+  IntrinsicsConfig sigma = intrinsics_of(calibration.sigma);
+  Estimates values, sigmas;
+  camera.visit(values);
+  sigma.visit(sigmas);
+  std::vector<Number> numbers;
+  for (std::size_t i = 0; i < values.all.size(); ++i)
+    numbers.push_back({values.all[i].first, values.all[i].second, sigmas.all[i].second});
+  return numbers;
 }
 
 std::string sigma_text(double sigma) {
-  return sigma > 0 ? fmt::format("+- {:.2g}", sigma) : "held fixed";
+  if (sigma == 0) return "held fixed";
+  return sigma > 0 ? fmt::format("+- {:.2g}", sigma) : "not known";
 }
 
 const CalibratedView& worst(const Calibration& calibration) {
@@ -48,12 +60,13 @@ const CalibratedView& worst(const Calibration& calibration) {
 
 std::string to_intrinsics_yaml(const CalibrationReport& report) {
   const Calibration& calibration = report.calibration;
+  const IntrinsicsConfig intrinsics = intrinsics_of(calibration.camera);
+  core::check_config(intrinsics, "");
   std::string text = fmt::format(
       "# Camera intrinsics from {} views, rms reprojection error {:.3f} px (nightjar calibrate).\n"
       "# Pixel centres at whole numbers; OpenCV's distortion model; +- one standard deviation.\n"
       "width_px: {}\nheight_px: {}\n",
-      calibration.views.size(), calibration.rms_px, calibration.camera.size.width_px,
-      calibration.camera.size.height_px);
+      calibration.views.size(), calibration.rms_px, intrinsics.width_px, intrinsics.height_px);
   for (const Number& number : numbers(calibration))
     text += fmt::format("{}: {}  # {}\n", number.name, number.value, sigma_text(number.sigma));
   return text;

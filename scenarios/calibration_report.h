@@ -15,7 +15,8 @@ struct CalibrationReport {
   Calibration calibration;     ///< and what those of them gave that differ most.
 };
 
-/// The file that read_intrinsics() reads, with standard deviations as comments.
+/// The file that read_intrinsics() reads, with standard deviations as comments. Throws
+/// std::invalid_argument, naming it, for a number that it would not allow.
 std::string to_intrinsics_yaml(const CalibrationReport& report);
 
 /// For people and for scripts.

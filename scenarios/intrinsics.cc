@@ -33,6 +33,21 @@ core::CameraModel read_intrinsics(const std::filesystem::path& path) {
   return camera;
 }
 
+IntrinsicsConfig intrinsics_of(const core::CameraModel& camera) {
+  const core::Lens& lens = camera.lens;
+  return {camera.size.width_px,
+          camera.size.height_px,
+          camera.fx_px,
+          camera.fy_px,
+          camera.cx_px,
+          camera.cy_px,
+          lens.k1,
+          lens.k2,
+          lens.p1,
+          lens.p2,
+          lens.k3};
+}
+
 bool sees_with_all_pixels(const core::CameraModel& camera) {
   const int right = camera.size.width_px - 1, bottom = camera.size.height_px - 1;
   const auto sees = [&](int x, int y) { return camera.ray({x, y}).allFinite(); };

@@ -19,8 +19,9 @@ constexpr core::Time kStep = 10ms;
 /// written with them.
 constexpr core::Time kLag = 100ms;
 
-/// A clock that jumped ahead by years must not fill the disk with empty steps.
-constexpr core::Time kMostPause = std::chrono::minutes(1);
+/// Events far apart, or a clock that jumped ahead by years, must not fill the disk with empty
+/// steps.
+constexpr core::Time kMostPause = 1s;
 
 // What waits for its step, so that memory is bounded whatever the times are.
 constexpr std::size_t kMostEvents = std::size_t{1} << 21;

@@ -11,7 +11,7 @@ namespace nightjar::scenarios {
 /// Writes a recording as an LCM log that LogRecording reads back bit for bit and that
 /// `nightjar replay` sends like any other: steps of 10 ms from the first event on, each with
 /// its triggers, inertial samples and frames, and last its events. Where there are no events
-/// for a minute, the steps between are left out.
+/// for a second, the steps between are left out.
 class LogRecordingWriter : public camera::RecordingWriter {
  public:
   /// Throws where core::PartFile does.

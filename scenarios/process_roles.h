@@ -22,9 +22,10 @@ struct Sending {
 };
 
 /// Events last: they close what a source has for a packet.
-inline const Sending kFromSource = {kSource,
-                                    {msg::kTruth.name, msg::kVehicleState.name, msg::kImu.name,
-                                     msg::kApsFrame.name, msg::kEvents.name}};
+inline const Sending kFromSource = {
+    kSource,
+    {msg::kTruth.name, msg::kVehicleState.name, msg::kSensor.name, msg::kTrigger.name,
+     msg::kImu.name, msg::kApsFrame.name, msg::kEvents.name}};
 inline const Sending kFromReconstruction = {kReconstruction, {msg::kPicture.name}};
 inline const Sending kFromTracker = {kTracker,
                                      {msg::kTagDetections.name, msg::kTargetEstimate.name,

@@ -147,7 +147,7 @@ void Reconstructing::tell_progress() const {
 
 void Reconstructing::finish() {
   if (result_.events == 0)
-    throw std::invalid_argument(begun_ ? "no events between --from and --until" : "no events");
+    throw EmptyRecording(begun_ ? "no events between --from and --until" : "no events");
   if (ended_) {  // there are events beyond
     skip_pause(until_);
     last_ = until_;

@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <stdexcept>
 
 #include "camera/recording.h"
 #include "core/image.h"
@@ -12,6 +13,13 @@
 #include "tracker/config.h"
 
 namespace nightjar::scenarios {
+
+/// Thrown for a recording in which there is nothing of what was asked for. The message does not
+/// name it: whoever opened it knows its name.
+class EmptyRecording : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
 
 struct ReconstructOptions {
   esi::ReconstructorConfig reconstructor;
@@ -32,7 +40,7 @@ using TakePicture = std::function<void(const core::Picture&, std::span<const cor
 /// the recording as they come; see ReconstructorFeed.
 ///
 /// Throws std::invalid_argument for options out of range, for what the reader and the
-/// reconstructor throw it for, and for a recording that has no event in the window.
+/// reconstructor throw it for, and EmptyRecording for one that has no event in the window.
 Reconstruction reconstruct(camera::RecordingReader& recording, const ReconstructOptions& options,
                            const TakePicture& take);
 

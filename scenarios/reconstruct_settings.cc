@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "scenarios/moved_name.h"
 #include "scenarios/scenario_error.h"
 #include "scenarios/yaml_reader.h"
 
@@ -28,7 +29,7 @@ std::string as_yaml(const std::string& assignment) {
 
 void move_weights(esi::ReconstructorConfig& config, const fs::path& from, const fs::path& to) {
   for (std::string* weights : {&config.firenet.weights, &config.e2vid.weights})
-    if (!weights->empty()) *weights = fs::proximate(from / *weights, to).string();
+    *weights = moved_name(*weights, from, to);
 }
 
 void read_settings(const fs::path& file, ReconstructSettings& settings) {

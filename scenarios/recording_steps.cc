@@ -1,11 +1,14 @@
 #include "scenarios/recording_steps.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <stdexcept>
 #include <utility>
 
 #include "msg/channels.h"
+#include "scenarios/recording_info.h"
 
 namespace nightjar::scenarios {
 namespace {
@@ -13,6 +16,10 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr core::Time kInterval = 10ms;
+
+// What waits for events of its time, so that memory is bounded in a recording without any.
+constexpr std::size_t kMostSamples = 100'000;
+constexpr std::size_t kMostFrames = 32;
 
 template <class T>
 void append(std::vector<T>& to, std::vector<T>& from) {
@@ -26,6 +33,15 @@ std::vector<T> take_until(std::vector<T>& list, core::Time end, Member time) {
   std::vector<T> taken(std::make_move_iterator(list.begin()), std::make_move_iterator(later));
   list.erase(list.begin(), later);
   return taken;
+}
+
+/// Lets the older half of more than `most` go; how many that were.
+template <class T>
+std::size_t make_room(std::vector<T>& list, std::size_t most) {
+  if (list.size() <= most) return 0;
+  const std::size_t old = list.size() / 2;
+  list.erase(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(old));
+  return old;
 }
 
 }  // namespace
@@ -45,7 +61,17 @@ void RecordingSteps::read_up_to(core::Time end) {
     append(waiting_.events, part_.events);
     append(waiting_.frames, part_.frames);
     append(waiting_.imu, part_.imu);
+    left_out_ += make_room(waiting_.frames, kMostFrames);
+    left_out_ += make_room(waiting_.imu, kMostSamples);
   }
+}
+
+std::string RecordingSteps::faults() const {
+  std::string text = fault_text(recording_->faults());
+  if (left_out_ == 0) return text;
+  if (!text.empty()) text += "; ";
+  return text +
+         fmt::format("left out {} frames and IMU samples of a time without events", left_out_);
 }
 
 std::optional<core::Time> RecordingSteps::next(msg::Bus& bus) {

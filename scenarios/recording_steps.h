@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <string>
 
 #include "camera/recording.h"
 #include "scenarios/step_reader.h"
@@ -8,7 +10,7 @@
 namespace nightjar::scenarios {
 
 /// A camera's recording as a camera would have sent it: every 10 ms the events, IMU samples
-/// and frames since then.
+/// and frames since then. Of those that events keep waiting for long, the latest are held.
 class RecordingSteps : public StepReader {
  public:
   explicit RecordingSteps(std::unique_ptr<camera::RecordingReader> recording);
@@ -16,6 +18,7 @@ class RecordingSteps : public StepReader {
   std::optional<core::Time> next(msg::Bus& bus) override;
   bool has_vehicle_states() const override { return false; }
   double progress() const override { return recording_->progress(); }
+  std::string faults() const override;
 
  private:
   void read_up_to(core::Time end);
@@ -24,6 +27,7 @@ class RecordingSteps : public StepReader {
   camera::RecordingPart part_;
   camera::RecordingPart waiting_;  // read and not yet published
   core::Time begin_{};
+  std::uint64_t left_out_ = 0;  // frames and samples
   bool more_ = true;
 };
 

@@ -9,6 +9,7 @@
 #include "scenarios/consistency.h"
 #include "scenarios/intrinsics.h"
 #include "scenarios/mount.h"
+#include "scenarios/moved_name.h"
 #include "scenarios/reconstruct_settings.h"
 #include "scenarios/yaml_reader.h"
 #include "scenarios/yaml_writer.h"
@@ -34,10 +35,11 @@ std::string no_model(const std::string& model) {
                        : fmt::format("model = {}, no such file", shown_file(model));
 }
 
-// Names the file, which is meant from the folder `from`, as from `to`.
-void move_intrinsics(Scenario& scenario, const fs::path& from, const fs::path& to) {
-  std::string& file = scenario.source.intrinsics;
-  if (!file.empty()) file = fs::proximate(from / file, to).string();
+// Names its files, which are meant from the folder `from`, as from `to`.
+void move_files(Scenario& scenario, const fs::path& from, const fs::path& to) {
+  for (std::string* file : {&scenario.model, &scenario.source.intrinsics})
+    *file = moved_name(*file, from, to);
+  move_weights(scenario.reconstructor, from, to);
 }
 
 // The simulator flies in it; a camera has the world itself.
@@ -73,9 +75,7 @@ Scenario parse(const std::string& text, const fs::path& path) {
   const fs::path model = path.parent_path() / scenario.model;
   if (needs_model(scenario) && (scenario.model.empty() || !is_file(model)))
     throw ScenarioError(place_of("model", root, file) + ": " + no_model(scenario.model));
-  if (!scenario.model.empty()) scenario.model = fs::proximate(model).string();
-  move_weights(scenario.reconstructor, path.parent_path(), fs::current_path());
-  move_intrinsics(scenario, path.parent_path(), fs::current_path());
+  move_files(scenario, path.parent_path(), fs::current_path());
   try {
     check(scenario);
   } catch (const std::invalid_argument& error) {  // a default, or values that do not fit
@@ -99,10 +99,7 @@ void check(const Scenario& scenario) {
 
 void save(const Scenario& scenario, const fs::path& path) {
   Scenario copy = scenario;
-  const fs::path folder = fs::absolute(path).parent_path();
-  if (!copy.model.empty()) copy.model = fs::proximate(copy.model, folder).string();
-  move_weights(copy.reconstructor, fs::current_path(), folder);
-  move_intrinsics(copy, fs::current_path(), folder);
+  move_files(copy, fs::current_path(), fs::absolute(path).parent_path());
   std::ofstream stream(path, std::ios::binary);
   stream << to_yaml(copy);
   if (copy.sensor.preset != sim::SensorPreset::custom) stream << pixel_comment(copy);

@@ -18,6 +18,8 @@ core::Time begin_of(const camera::LivePacket& packet) {
 }
 
 void publish(camera::LivePacket& packet, msg::Bus& bus) {
+  for (const camera::Trigger& trigger : packet.triggers)
+    bus.publish(msg::kTrigger, msg::TriggerNote{trigger.t, trigger.type});
   for (const camera::RecordedImu& sample : packet.imu)
     bus.publish<core::ImuSample>(msg::kImu, sample);
   for (const camera::RecordedFrame& frame : packet.frames)
@@ -42,6 +44,9 @@ void send_camera(camera::EventSource& camera, SourceLink& link) {
       link.idle();
       continue;
     }
+    if (report.counts.packets == 1)
+      link.inside().publish(msg::kSensor,
+                            msg::SensorNote{packet.begin, camera.size(), camera.name()});
     publish(packet, link.inside());
     link.exchange(packet.end,
                   std::chrono::duration_cast<core::Time>(packet.received.time_since_epoch()));

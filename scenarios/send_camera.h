@@ -6,7 +6,8 @@
 namespace nightjar::scenarios {
 
 /// Has a camera be the source of a loop whose other nodes are other processes: each packet
-/// goes out when it comes, as a free-running step, IMU samples and frames before the events.
+/// goes out when it comes, as a free-running step, triggers, IMU samples and frames before the
+/// events; the first also says the sensor's size and the camera's name.
 /// `link` should hear no answers, and its while_waiting is called once a second at least,
 /// whatever the camera does; what that throws ends it, else the camera's stop().
 ///

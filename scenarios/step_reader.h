@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "core/event.h"
 #include "msg/bus.h"
@@ -23,6 +24,9 @@ class StepReader {
 
   /// Share of the file that has been read, 0 to 1.
   virtual double progress() const = 0;
+
+  /// What was not as it should be so far and was passed over, in one line; empty if nothing.
+  virtual std::string faults() const = 0;
 };
 
 /// Opens our own log (`nightjar run --record-events`), what lcm-logger wrote of our

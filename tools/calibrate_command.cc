@@ -5,12 +5,14 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <filesystem>
+#include <initializer_list>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 
+#include "core/config_check.h"
 #include "core/part_file.h"
 #include "scenarios/board_search.h"
 #include "scenarios/calibration_plot.h"
@@ -85,7 +87,8 @@ void declare_board(CLI::App& command, Arguments& arguments) {
 void declare(CLI::App& command, Arguments& arguments) {
   declare(command, arguments.source, "SOURCE");
   command.get_option("SOURCE")->description(
-      "a recording (AEDAT4, AEDAT 3.1, AEDAT 2.0, text) or a folder of pictures");
+      "a recording (AEDAT4, AEDAT 3.1, AEDAT 2.0, text, an LCM log of ours) or a folder of "
+      "pictures");
   declare_board(command, arguments);
   command.add_option("--out", arguments.out, "the intrinsics; a .png of the same name beside it")
       ->required()
@@ -109,6 +112,34 @@ void declare(CLI::App& command, Arguments& arguments) {
   command.footer(kNotes);
 }
 
+/// Throws when one of `options` was given, though it is for `what`.
+void refuse_unless(const std::string& what, const CLI::App& command,
+                   std::initializer_list<const char*> options) {
+  for (const char* option : options)
+    if (command.count(option) > 0)
+      throw std::invalid_argument(fmt::format("{} is for {}", option, what));
+}
+
+bool is_folder(const Arguments& arguments) {
+  std::error_code ignored;
+  return fs::is_directory(arguments.source.path, ignored);
+}
+
+void check(const CLI::App& command, const Arguments& arguments) {
+  if (arguments.out.extension() != ".yaml")
+    throw std::invalid_argument(
+        fmt::format("--out = {}, allowed a name ending in .yaml", arguments.out.string()));
+  core::check_range("--fps", arguments.fps, 0.01, 100000);
+  if (arguments.board == "tags")
+    refuse_unless("--board checkerboard", command, {"--corners", "--square-m"});
+  else
+    refuse_unless("--board tags", command, {"--layout"});
+  if (is_folder(arguments))
+    refuse_unless("recordings, not for a folder of pictures", command,
+                  {"--method", "--fps", "--frames", "--size"});
+  if (arguments.frames) refuse_unless("events, not for --frames", command, {"--method", "--fps"});
+}
+
 /// "9x6".
 scenarios::Checkerboard checkerboard_of(const Arguments& arguments) {
   scenarios::Checkerboard board{0, 0, arguments.square_m};
@@ -124,22 +155,17 @@ scenarios::Checkerboard checkerboard_of(const Arguments& arguments) {
 }
 
 std::unique_ptr<scenarios::BoardFinder> finder_of(const Arguments& arguments) {
-  if (arguments.board == "checkerboard") {
-    if (!arguments.layout.empty()) throw std::invalid_argument("--layout is for --board tags");
+  if (arguments.board == "checkerboard")
     return make_checkerboard_finder(checkerboard_of(arguments));
-  }
-  scenarios::TagBoardConfig layout;
-  if (!arguments.layout.empty()) layout = scenarios::read_tag_board(arguments.layout);
-  return make_tag_board_finder(layout, settings_of(arguments.options).tracker.detector);
+  const tracker::DetectorConfig detector = settings_of(arguments.options).tracker.detector;
+  if (arguments.layout.empty()) return scenarios::make_tag_board_finder({}, detector);
+  const scenarios::TagBoardConfig layout = scenarios::read_tag_board(arguments.layout);
+  return naming(arguments.layout, [&] { return make_tag_board_finder(layout, detector); });
 }
 
 scenarios::BoardSearch search(const Arguments& arguments, scenarios::BoardFinder& finder) {
   const auto progress = progress_of(arguments.source, "looking for the board");
-  std::error_code ignored;
-  if (fs::is_directory(arguments.source.path, ignored)) {
-    note_interrupts();
-    return search_pictures(arguments.source.path, finder, progress);
-  }
+  if (is_folder(arguments)) return search_pictures(arguments.source.path, finder, progress);
   const auto recording = open(arguments.source);
   if (arguments.frames) return search_frames(*recording, finder, progress);
   scenarios::ReconstructOptions options;
@@ -151,26 +177,27 @@ scenarios::BoardSearch search(const Arguments& arguments, scenarios::BoardFinder
 
 scenarios::CalibrationReport calibrate(const Arguments& arguments) {
   const auto finder = finder_of(arguments);
-  const scenarios::BoardSearch found = search(arguments, *finder);
+  const std::string& source = arguments.source.path;
+  const scenarios::BoardSearch found =
+      naming<scenarios::EmptyRecording>(source, [&] { return search(arguments, *finder); });
+  warn(found.warning);
   const auto views = choose_views(found.views, found.size, arguments.views);
   if (views.size() < scenarios::kLeastViews)
     throw std::invalid_argument(fmt::format(
         "{}: the board is in {} of {} pictures, {} of these views differ, expected at least {}",
-        arguments.source.path, found.views.size(), found.pictures, views.size(),
-        scenarios::kLeastViews));
-  return {fs::path(arguments.source.path).filename().string(), found.pictures, found.views.size(),
-          scenarios::calibrate(views, found.size, arguments.calibration)};
+        source, found.views.size(), found.pictures, views.size(), scenarios::kLeastViews));
+  return {fs::path(source).filename().string(), found.pictures, found.views.size(),
+          naming(source, [&] { return calibrate(views, found.size, arguments.calibration); })};
 }
 
-void run(const Arguments& arguments) {
-  if (arguments.out.extension() != ".yaml")
-    throw std::invalid_argument(
-        fmt::format("--out = {}, allowed a name ending in .yaml", arguments.out.string()));
+void run(const CLI::App& command, const Arguments& arguments) {
+  note_interrupts();  // before there is anything to leave behind
+  check(command, arguments);
   scenarios::run_gnuplot("");  // fails before the work, not after it
   core::PartFile intrinsics(arguments.out);
   core::PartFile picture(fs::path(arguments.out).replace_extension(".png"));
   const scenarios::CalibrationReport report = calibrate(arguments);
-  intrinsics.stream() << to_intrinsics_yaml(report);
+  intrinsics.stream() << naming(arguments.source.path, [&] { return to_intrinsics_yaml(report); });
   picture.stream() << draw_png(report);
   intrinsics.check();
   picture.finish();
@@ -189,7 +216,7 @@ void add_calibrate_command(CLI::App& app) {
       app.add_subcommand("calibrate", "find a camera's intrinsics from views of a board");
   auto arguments = std::make_shared<Arguments>();  // lives as long as the callback
   declare(*command, *arguments);
-  command->callback([arguments] { run(*arguments); });
+  command->callback([command, arguments] { run(*command, *arguments); });
 }
 
 }  // namespace nightjar::tools

@@ -24,8 +24,8 @@ struct Arguments {
 
 constexpr const char* kNotes = R"(
 What a format has no place for is left out and said on stderr, a line for each kind: text holds
-events alone, AEDAT4 frames of 8 bits, AEDAT 3.1 and LCM logs everything; of a flight's log the
-camera's part is taken. OUT appears when it is complete.
+events alone, AEDAT4 frames of 8 bits and IMU in floats, AEDAT 3.1 all with IMU in floats, LCM
+logs everything; of a flight's log the camera's part is taken. OUT appears when it is complete.
 
 Examples:
   nightjar convert road.aedat4 road.aedat         (AEDAT 3.1)

@@ -22,6 +22,7 @@
 #include "tools/progress_bar.h"
 #include "tools/reconstruct_options.h"
 #include "tools/reconstruct_process.h"
+#include "tools/recording_options.h"
 #include "tools/sensor_options.h"
 
 namespace nightjar::tools {
@@ -202,7 +203,8 @@ void run(const Arguments& arguments) {
   }
   if (arguments.process.wanted) return run_process(arguments);
   check(arguments);
-  const Result result = reconstruct(arguments);
+  const Result result = naming<scenarios::EmptyRecording>(arguments.recording,
+                                                          [&] { return reconstruct(arguments); });
   if (const std::string text = scenarios::warning(result.reconstruction); !text.empty())
     std::cerr << "nightjar: warning: " << text << '\n';
   if (arguments.json)

@@ -8,6 +8,7 @@
 
 #include "scenarios/step_reader.h"
 #include "tools/process_options.h"
+#include "tools/recording_options.h"
 #include "tools/sensor_options.h"
 
 namespace nightjar::tools {
@@ -45,6 +46,7 @@ void run(const Arguments& arguments) {
       link.exchange(*t);
     }
   });
+  warn(steps->faults());
 }
 
 }  // namespace

@@ -5,13 +5,12 @@
 #include <numbers>
 
 #include "tracker/angles.h"
+#include "tracker/pause.h"
 
 namespace nightjar::tracker {
 namespace {
 
 constexpr double kGravity_m_s2 = 9.81;
-// After a pause, as when the camera was away, neither heading nor integral jumps.
-constexpr double kLongestStep_s = 0.15;
 constexpr double kRad_deg = std::numbers::pi / 180;
 
 double heading_of(const Eigen::Quaterniond& q_world_body) {
@@ -47,7 +46,8 @@ core::AttitudeSetpoint Controller::step(const core::VehicleState& vehicle, const
     last_step_ = vehicle.t;
     heading_rad_ = heading_of(vehicle.q_world_body);
   }
-  const double dt_s = std::min(core::seconds(vehicle.t - *last_step_), kLongestStep_s);
+  // After a pause, as when the camera was away, neither heading nor integral jumps.
+  const double dt_s = core::seconds(std::min(vehicle.t - *last_step_, kPause));
   last_step_ = vehicle.t;
 
   core::AttitudeSetpoint setpoint{.t = vehicle.t,

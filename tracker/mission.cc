@@ -7,13 +7,13 @@
 #include <numbers>
 #include <utility>
 
+#include "tracker/pause.h"
+
 namespace nightjar::tracker {
 namespace {
 
 using core::MissionPhase;
 
-// Longer without a step than any source's packets are: pictures stopped, somebody else flew.
-constexpr core::Time kPause = std::chrono::milliseconds(150);
 // While landing the goal sinks this far below standing height: the pull that
 // tells standing on the board from not having come down yet.
 constexpr double kPressDepth_m = 0.25;

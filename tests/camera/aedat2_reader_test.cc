@@ -106,14 +106,19 @@ TEST(Aedat2ReaderTest, lays_frames_where_the_events_are) {
   EXPECT_EQ(read.all.frames[0].top_px, read.all.events.at(0).y);
 }
 
-TEST(Aedat2ReaderTest, knows_a_rolling_shutter_by_signals_among_the_resets) {
-  std::string bytes = kNoChip;
+/// The reads of one rolling frame: signals follow their resets a column later.
+std::string rolling_frame(std::uint32_t t_us) {
+  std::string bytes;
   for (std::uint32_t column = 0; column < 5; ++column)
     for (std::uint32_t up = 0; up < 3; ++up) {
-      if (column < 4) bytes += aps(column, up, false, 500, 100 + 10 * column);
-      if (column > 0) bytes += aps(column - 1, up, true, 400, 100 + 10 * column);
+      if (column < 4) bytes += aps(column, up, false, 500, t_us + 10 * column);
+      if (column > 0) bytes += aps(column - 1, up, true, 400, t_us + 10 * column);
     }
-  const test::WholeRecording read = test::read_bytes(bytes, kSmall);
+  return bytes;
+}
+
+TEST(Aedat2ReaderTest, knows_a_rolling_shutter_by_signals_among_the_resets) {
+  const test::WholeRecording read = test::read_bytes(kNoChip + rolling_frame(100), kSmall);
   ASSERT_EQ(read.all.frames.size(), 1u);
   EXPECT_EQ(read.all.frames[0].exposure_begin, Time(100));
   EXPECT_EQ(read.all.frames[0].exposure_end, Time(110));  // each pixel's is 10 us
@@ -147,6 +152,30 @@ TEST(Aedat2ReaderTest, counts_frames_that_lost_reads_and_signals_without_their_r
   EXPECT_EQ(read.all.frames.size(), 1u);
   EXPECT_EQ(read.faults.packets_damaged, 3u + 1u);
   EXPECT_EQ(read.faults.first, "dark.rec: byte 14: record: of a frame or sample that is not whole");
+}
+
+TEST(Aedat2ReaderTest, loses_one_frame_alone_with_one_read) {
+  const std::string frame = all_pixels(false, 100, 900) + all_pixels(true, 200, 600);
+  for (std::size_t lost = 0; lost < 24; ++lost) {
+    const test::WholeRecording read =
+        test::read_bytes(kNoChip + std::string(frame).erase(8 * lost, 8) + frame + frame, kSmall);
+    ASSERT_EQ(read.all.frames.size(), 2u) << lost;
+    for (const RecordedFrame& whole : read.all.frames) EXPECT_EQ(whole.gray.size(), kSmall);
+    // Of a reset that is lost its signal is left.
+    EXPECT_EQ(read.faults.packets_damaged, lost < 12 ? 2u : 1u) << lost;
+  }
+}
+
+TEST(Aedat2ReaderTest, gives_the_frames_of_a_file_that_begins_within_one) {
+  const std::string global = all_pixels(false, 100, 900) + all_pixels(true, 200, 600);
+  for (const std::string& frame : {global, rolling_frame(100)})
+    for (std::size_t first = 1; first < 24; ++first) {
+      const test::WholeRecording read =
+          test::read_bytes(kNoChip + frame.substr(8 * first) + frame + frame, kSmall);
+      ASSERT_EQ(read.all.frames.size(), 2u) << first;
+      for (const RecordedFrame& whole : read.all.frames) EXPECT_EQ(whole.gray.size(), kSmall);
+      EXPECT_GT(read.faults.packets_damaged, 0u) << first;
+    }
 }
 
 TEST(Aedat2ReaderTest, passes_over_reads_of_another_kind_or_off_the_sensor) {
@@ -192,9 +221,10 @@ TEST(Aedat2ReaderTest, reads_inertial_samples_by_the_scale_of_the_settings) {
 TEST(Aedat2ReaderTest, counts_records_of_inertial_samples_that_are_not_whole) {
   const std::string one = imu(7);
   const test::WholeRecording read =
-      test::read_bytes(kHeader + one.substr(8 * 5) + one.substr(0, 8 * 3) + one);
+      test::read_bytes(kHeader + one.substr(8 * 5) + one.substr(0, 8 * 3) + one +
+                       one.substr(0, 8 * 4));  // which the file's end cuts off
   EXPECT_EQ(read.all.imu.size(), 1u);
-  EXPECT_EQ(read.faults.packets_damaged, 2u + 3u);
+  EXPECT_EQ(read.faults.packets_damaged, 2u + 3u + 4u);
 }
 
 TEST(Aedat2ReaderTest, counts_on_where_31_or_32_bits_wrap) {

@@ -129,6 +129,16 @@ TEST(Convert, EventPacketsMayLieAtEitherEndOfTime) {
   }
 }
 
+TEST(Convert, AnEventBehindItsPacketsEndIsRefusedBeforeItsTimeIsFormed) {
+  const core::Time begin(std::numeric_limits<std::int64_t>::max() - 5);
+  Bytes bytes = encode(core::EventPacket{begin, begin + 4us, {{begin + 4us, 1, 2, true}}});
+  EXPECT_EQ(decode<core::EventPacket>(bytes).events.at(0).t, begin + 4us);
+  bytes[bytes.size() - 5] |= 200;  // of the word's upper 32 bits 31 are the time: 100 us more
+  EXPECT_THAT([&] { decode<core::EventPacket>(bytes); },
+              testing::ThrowsMessage<std::invalid_argument>(
+                  testing::HasSubstr("event 100 us after its beginning, allowed 0 to 4 us")));
+}
+
 TEST(Convert, EventPacketsThatBreakTheirPromiseAreRefused) {
   const auto refused = [](const core::EventPacket& packet) {
     EXPECT_THROW(encode(packet), std::invalid_argument);

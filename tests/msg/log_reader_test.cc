@@ -88,6 +88,40 @@ TEST(LogReader, GoesOnBehindWhatIsDamaged) {
   }
 }
 
+/// Counts how often it is asked for bytes or for a place.
+class CountingBuffer : public std::stringbuf {
+ public:
+  using std::stringbuf::stringbuf;
+  int calls = 0;
+
+ private:
+  std::streamsize xsgetn(char* to, std::streamsize count) override {
+    ++calls;
+    return std::stringbuf::xsgetn(to, count);
+  }
+  pos_type seekoff(off_type by, std::ios::seekdir from, std::ios::openmode which) override {
+    ++calls;
+    return std::stringbuf::seekoff(by, from, which);
+  }
+  pos_type seekpos(pos_type at, std::ios::openmode which) override {
+    ++calls;
+    return std::stringbuf::seekpos(at, which);
+  }
+};
+
+TEST(LogReader, SearchesInBlocksForTheNextMessage) {
+  CountingBuffer buffer(std::string(1 << 20, '\0') + three_messages());
+  LogReader reader(std::make_unique<std::istream>(&buffer), "a.lcm");
+  EXPECT_EQ(reader.next()->bytes, Bytes(40, 1));
+  EXPECT_EQ(reader.bytes_lost(), 1u << 20);
+  EXPECT_LT(buffer.calls, 100);  // a MiB is 16 blocks of 64 KiB: a place and a read of each
+}
+
+TEST(LogReader, FindsAMarkWhereverABlockEnds) {
+  for (std::size_t lost = 65530; lost < 65541; ++lost)
+    EXPECT_EQ(read_all(std::string(lost, '\xed') + three_messages(), lost), "123") << lost;
+}
+
 TEST(LogReader, TakesNoMessageAsLargeAsItsHeadMayClaim) {
   std::string bytes = three_messages();
   bytes.replace(24, 4, "\x7f\xff\xff\xff");  // 2 GiB of data

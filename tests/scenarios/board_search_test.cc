@@ -96,6 +96,31 @@ TEST(BoardSearchTest, a_board_moved_before_an_event_camera_calibrates_it) {
   EXPECT_LT(result.sigma.fx_px, 0.02 * truth.fx_px);  // and they are of use
 }
 
+/// Takes every picture for one of the board.
+class WillingFinder : public BoardFinder {
+ public:
+  std::optional<BoardView> find(const core::Picture&) override { return BoardView{}; }
+};
+
+test::FakeRecording with_a_pause() {
+  using namespace std::chrono_literals;
+  std::vector<camera::RecordingPart> parts(1);
+  for (const auto t : {0ms, 250ms, 90000ms, 90250ms}) parts[0].events.push_back({1s + t, 1, 1, 1});
+  return {{8, 8}, std::move(parts)};
+}
+
+TEST(BoardSearchTest, views_behind_a_long_pause_have_their_own_times) {
+  test::FakeRecording recording = with_a_pause();
+  WillingFinder finder;
+  ReconstructOptions options;
+  options.rate_hz = 10;
+  const BoardSearch found = search_events(recording, options, finder, kNoProgress);
+  std::vector<std::string> pictures;
+  for (const BoardView& view : found.views) pictures.push_back(view.picture);
+  EXPECT_THAT(pictures,
+              testing::ElementsAre("0.100 s", "0.200 s", "90.000 s", "90.100 s", "90.200 s"));
+}
+
 /// Frames of a board held still at each place, the last a region of interest.
 test::FakeRecording frames_of_the_board() {
   const test::BoardCamera camera(small_camera());

@@ -58,6 +58,20 @@ TEST(CheckerboardFinderTest, finds_all_inner_corners_where_they_are) {
   }
 }
 
+TEST(CheckerboardFinderTest, keeps_clear_of_the_neighbouring_rows_of_a_board_tilted_far) {
+  // Rows come to lie 5 px apart where columns are 14 px apart: a window that only knew of the
+  // columns would reach into the next row.
+  const test::BoardCamera camera(test::distorting_camera());
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = Eigen::AngleAxisd(1.15, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  T.translation() = Eigen::Vector3d(0, 0, 0.6) - T.linear() * Eigen::Vector3d(0.12, 0.075, 0);
+  const auto view = make_checkerboard_finder(kCheckerboard)
+                        ->find(camera.draw(test::checkerboard_paint(kCheckerboard), T));
+  ASSERT_TRUE(view);
+  EXPECT_LT(std::min(rms_px(*view, camera.model(), T), rms_px(*view, camera.model(), T, true)),
+            0.2);
+}
+
 TEST(CheckerboardFinderTest, finds_nothing_where_part_of_the_board_is_missing) {
   const test::BoardCamera camera(test::distorting_camera());
   Eigen::Isometry3d T = test::board_pose(0, {0.12, 0.075}, 0.3, test::kCheckerboardFace);

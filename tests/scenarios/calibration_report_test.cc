@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -68,6 +69,23 @@ TEST(CalibrationReportTest, says_how_far_each_number_is_known) {
   EXPECT_EQ(json["views"].size(), 9u);
   EXPECT_EQ(json["views"][8]["rms_px"], 0.28);
   EXPECT_EQ(json["rms_px"], 0.2);
+}
+
+TEST(CalibrationReportTest, what_the_scenarios_reader_would_refuse_is_not_written) {
+  CalibrationReport report = good_report();
+  report.calibration.camera.lens.k3 = 20000;
+  try {
+    to_intrinsics_yaml(report);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "k3 = 20000, allowed -10000 to 10000");
+  }
+}
+
+TEST(CalibrationReportTest, a_deviation_that_is_no_number_is_not_that_of_a_fixed_one) {
+  CalibrationReport report = good_report();
+  report.calibration.sigma.fy_px = std::nan("");
+  EXPECT_THAT(to_intrinsics_yaml(report), HasSubstr("fy_px: 299.4  # not known\n"));
 }
 
 TEST(CalibrationReportTest, good_views_need_no_advice) {

@@ -112,6 +112,8 @@ TEST_F(IntrinsicsTest, the_simulator_refuses_a_real_lens_and_says_why) {
 TEST_F(IntrinsicsTest, the_file_must_be_there_and_of_the_cameras_size) {
   EXPECT_THAT(refusal("source: {type: caer, intrinsics: none.yaml}\n"),
               HasSubstr("none.yaml: no such file"));
+  EXPECT_THAT(refusal("source: {type: caer, intrinsics: " + std::string(300, 'i') + ".yaml}\n"),
+              HasSubstr(".yaml: no such file"));
   std::string small = kFile;
   small.replace(small.find("346"), 3, "240");
   write("camera.yaml", small);

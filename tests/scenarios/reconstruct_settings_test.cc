@@ -48,6 +48,15 @@ TEST(ReconstructSettingsTest, refuses_other_sections_and_values) {
               HasSubstr("none.yaml"));
 }
 
+TEST(ReconstructSettingsTest, a_name_longer_than_files_have_waits_for_who_opens_it) {
+  const test::ScratchFolder folder;
+  const std::string name = std::string(300, 'w') + ".onnx";
+  std::ofstream(folder / "a.yaml") << "reconstructor: {firenet: {weights: " << name << "}}\n";
+  ReconstructSettings settings;
+  read_settings(folder / "a.yaml", settings);
+  EXPECT_TRUE(settings.reconstructor.firenet.weights.ends_with(name));
+}
+
 TEST(ReconstructSettingsTest, applies_one_setting_and_keeps_the_others) {
   ReconstructSettings settings;
   settings.reconstructor.esi.decay_power = 3;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "msg/channels.h"
+#include "msg/step_receiver.h"
 
 namespace nightjar::scenarios {
 namespace {
@@ -53,8 +54,11 @@ camera::LivePacket packet_between(core::Time begin, core::Time end) {
 class SendCameraTest : public testing::Test {
  protected:
   SendCameraTest() {
-    for (const char* channel : {msg::kImu.name, msg::kApsFrame.name, msg::kEventParts})
+    for (const char* channel : {msg::kSensor.name, msg::kTrigger.name, msg::kImu.name,
+                                msg::kApsFrame.name, msg::kEventParts})
       wire_.subscribe_bytes(channel, [this, channel](auto) { heard_.emplace_back(channel); });
+    wire_.subscribe(msg::kSensor, [this](const msg::SensorNote& note) { sensor_ = note; });
+    wire_.subscribe(msg::kTrigger, [this](const msg::TriggerNote& note) { trigger_ = note; });
     wire_.subscribe(msg::kStep, [this](const msg::StepMark& mark) { marks_.push_back(mark); });
   }
 
@@ -69,6 +73,8 @@ class SendCameraTest : public testing::Test {
   msg::Bus wire_;
   ScriptedCamera camera_;
   std::vector<std::string> heard_;
+  msg::SensorNote sensor_;
+  msg::TriggerNote trigger_;
   std::vector<msg::StepMark> marks_;
   int idle_ = 0;
   ProcessReport report_;
@@ -76,6 +82,7 @@ class SendCameraTest : public testing::Test {
 
 TEST_F(SendCameraTest, EventsCloseAPacketAndTheMarkTellsWhenItArrived) {
   camera::LivePacket packet = packet_between(10ms, 20ms);
+  packet.triggers = {{11ms, 2}};
   packet.imu.emplace_back().t = 15ms;
   camera::RecordedFrame& frame = packet.frames.emplace_back();
   frame.exposure_end = 12ms;
@@ -86,12 +93,39 @@ TEST_F(SendCameraTest, EventsCloseAPacketAndTheMarkTellsWhenItArrived) {
   camera_.script.emplace_back(Arrival::packet, std::move(packet));
   send();
   EXPECT_TRUE(camera_.started);
-  EXPECT_THAT(heard_, ElementsAre(msg::kImu.name, msg::kApsFrame.name, msg::kEventParts));
+  EXPECT_THAT(heard_, ElementsAre(msg::kSensor.name, msg::kTrigger.name, msg::kImu.name,
+                                  msg::kApsFrame.name, msg::kEventParts));
+  EXPECT_EQ(trigger_, (msg::TriggerNote{11ms, 2}));
   ASSERT_EQ(marks_.size(), 1u);
   EXPECT_EQ(marks_[0].t, 20ms);
   EXPECT_FALSE(marks_[0].lock_step);
   EXPECT_EQ(marks_[0].origin, std::chrono::duration_cast<core::Time>(arrived.time_since_epoch()));
   EXPECT_EQ(report_.latency.count(), 1u);  // of the sending, for nobody answers
+}
+
+TEST_F(SendCameraTest, TheFirstPacketBeginsWithTheSensorSoThatALogOfTheWireKnowsItsSize) {
+  camera_.script.emplace_back(Arrival::packet, packet_between(10ms, 20ms));
+  camera_.script.emplace_back(Arrival::packet, packet_between(20ms, 30ms));
+  send();
+  EXPECT_THAT(heard_, ElementsAre(msg::kSensor.name, msg::kEventParts, msg::kEventParts));
+  EXPECT_EQ(sensor_, (msg::SensorNote{10ms, {8, 8}, "scripted"}));
+}
+
+TEST_F(SendCameraTest, WhoDoesNotListenToTriggersMissesNothingOfAStep) {
+  msg::StepReceiver reconstruction(wire_, kSource, {msg::kApsFrame.name, msg::kEvents.name});
+  camera::LivePacket first = packet_between(0ms, 10ms);
+  first.triggers = {{5ms, 2}, {6ms, 2}};
+  camera_.script.emplace_back(Arrival::packet, std::move(first));
+  camera_.script.emplace_back(Arrival::packet, packet_between(10ms, 20ms));
+  send();
+  for (int i = 0; i < 2; ++i) {
+    const auto step = reconstruction.next();
+    ASSERT_TRUE(step);
+    ASSERT_EQ(step->messages.size(), 1u);
+    EXPECT_EQ(step->messages[0].channel, msg::kEvents.name);
+  }
+  EXPECT_EQ(reconstruction.counts().messages_lost, 0u);
+  EXPECT_EQ(reconstruction.counts().steps_lost, 0u);
 }
 
 TEST_F(SendCameraTest, ASilentCameraLetsTheOthersReportAndStop) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stdexcept>
+#include <string>
 
 #include "msg/event_parts.h"
 #include "msg/log_writer.h"
@@ -61,6 +63,41 @@ TEST(RecordingSteps, CutsEvery10MillisecondsAndLosesNoEvent) {
   EXPECT_EQ(listener.frames, 1);
 }
 
+TEST(RecordingSteps, HoldsNoMoreThanTheLatestFramesAndSamplesUntilAnEventComes) {
+  camera::RecordingPart frames, samples, events;
+  frames.frames.resize(1);
+  samples.imu.resize(1'000);
+  events.events = {event_at(1ms)};
+  std::vector<camera::RecordingPart> parts(40, frames);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    static_cast<core::ApsFrame&>(parts[i].frames[0]) =
+        test::flat_frame({4, 4}, 0us, core::Time(static_cast<int>(i)), 7);
+  parts.insert(parts.end(), 150, samples);
+  parts.push_back(events);
+  RecordingSteps steps(std::make_unique<test::FakeRecording>(core::Resolution{8, 8}, parts));
+  Listener listener;
+  std::vector<core::Time> frame_ends;
+  int samples_heard = 0;
+  listener.bus.subscribe(msg::kApsFrame,
+                         [&](const core::ApsFrame& f) { frame_ends.push_back(f.exposure_end); });
+  listener.bus.subscribe(msg::kImu, [&](const core::ImuSample&) { ++samples_heard; });
+  EXPECT_EQ(listener.read_all(steps).size(), 1u);
+  ASSERT_EQ(frame_ends.size(), 24u);  // at the 33rd the older half was let go, so ...
+  EXPECT_EQ(frame_ends.front(), 16us);
+  EXPECT_EQ(samples_heard, 99'500);  // ... at the 101,000th
+  EXPECT_EQ(steps.faults(), "left out 50516 frames and IMU samples of a time without events");
+}
+
+TEST(RecordingSteps, SaysWhatWasWrongWithTheRecording) {
+  camera::RecordingPart part;
+  part.events = {event_at(1ms)};
+  auto recording = std::make_unique<test::FakeRecording>(core::Resolution{8, 8},
+                                                         std::vector<camera::RecordingPart>{part});
+  recording->faults_.bytes_lost = 3;
+  recording->faults_.first = "a.rec: byte 7";
+  EXPECT_EQ(RecordingSteps(std::move(recording)).faults(), "3 bytes lost; first: a.rec: byte 7");
+}
+
 TEST(RecordingSteps, RefusesARecordingWithoutEvents) {
   EXPECT_THROW(RecordingSteps(std::make_unique<test::FakeRecording>(
                    core::Resolution{8, 8}, std::vector<camera::RecordingPart>(1))),
@@ -98,6 +135,64 @@ TEST(LogSteps, SendsWhatTheSourceSaidWhoeverWroteItDown) {
     ASSERT_EQ(listener.packets.size(), 2u);
     EXPECT_EQ(listener.packets[1].events, packet_until(20ms).events);
     EXPECT_EQ(listener.packets[1].begin, 10ms);
+  }
+}
+
+TEST(LogSteps, PassesOverEventsThatDoNotDecodeAndCountsThem) {
+  const test::ScratchFolder scratch;
+  const auto write = [&](bool whole) {
+    msg::LogWriter log(scratch / "run.lcm");
+    log.write(msg::kEvents.name, msg::encode(packet_until(10ms)));
+    msg::Bytes reversed = msg::encode(packet_until(20ms));
+    std::rotate(reversed.end() - 16, reversed.end() - 8, reversed.end());
+    for (const msg::Bytes& bytes : {msg::Bytes(16), msg::Bytes(40), reversed})
+      if (!whole) log.write(msg::kEvents.name, bytes);
+    for (const msg::Bytes& piece : msg::cut_events(msg::encode(packet_until(30ms)), 3, 1)) {
+      if (!whole) log.write(msg::kEventParts, msg::Bytes(piece.begin(), piece.end() - 1));
+      log.write(msg::kEventParts, piece);
+    }
+    log.write(msg::kStep.name, msg::encode(msg::StepMark{}));
+    log.finish();
+  };
+  for (const bool whole : {true, false}) {
+    write(whole);
+    const auto steps = open_steps(scratch / "run.lcm");
+    Listener listener;
+    EXPECT_EQ(listener.read_all(*steps), (std::vector<core::Time>{10ms, 30ms}));
+    ASSERT_EQ(listener.packets.size(), 2u);
+    EXPECT_EQ(listener.packets[1].events, packet_until(30ms).events);
+    const std::string faults = steps->faults();
+    if (whole)
+      EXPECT_EQ(faults, "");
+    else
+      EXPECT_TRUE(faults.starts_with("5 damaged packets; first: " + (scratch / "run.lcm").string() +
+                                     ": byte 87: message: event_packet_t"))
+          << faults;
+  }
+}
+
+TEST(LogSteps, HoldsNoMoreThanTenThousandMessagesUntilEventsCome) {
+  const test::ScratchFolder scratch;
+  for (const bool in_pieces : {false, true}) {
+    msg::LogWriter log(scratch / "run.lcm");
+    const msg::Bytes packet = msg::encode(core::EventPacket{0ms, 10ms, {}});
+    for (int i = 0; i < 10'001; ++i) {
+      core::VehicleState state;
+      state.t = core::Time(i);
+      if (in_pieces)
+        log.write(msg::kEventParts, msg::cut_events(packet, i, 1).at(0));
+      else
+        log.write(msg::kVehicleState.name, msg::encode(state));
+    }
+    if (!in_pieces) log.write(msg::kEvents.name, packet);
+    log.write(msg::kStep.name, msg::encode(msg::StepMark{}));
+    log.finish();
+    const auto steps = open_steps(scratch / "run.lcm");
+    Listener listener;
+    EXPECT_EQ(listener.read_all(*steps).size(), 1u);
+    EXPECT_EQ(listener.states, in_pieces ? 0 : 1);
+    EXPECT_EQ(listener.packets.size(), 1u);
+    EXPECT_TRUE(steps->faults().starts_with("10000 damaged packets; first: "));
   }
 }
 

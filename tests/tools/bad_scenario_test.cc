@@ -53,6 +53,18 @@ TEST_F(BadScenarioTest, AMissingModelIsRefused) {
   expect_refused_text("model: none.xml\n", "dark.yaml:1:1: model = none.xml, no such file");
 }
 
+TEST_F(BadScenarioTest, NamesLongerThanFilesHaveAreRefused) {
+  const std::string name(300, 'n');
+  expect_refused_text("model: " + name + ".xml\n", ".xml, no such file");
+  write("source: {type: caer, intrinsics: " + name + ".yaml}\n");
+  expect_refused("track dark.yaml", ".yaml: no such file");
+  write("model: " + name + ".xml\nsource: {type: caer, intrinsics: none.yaml}\n");
+  expect_refused("track dark.yaml", "none.yaml: no such file");  // nobody opens the model
+  std::ofstream(folder_ / "events.txt") << "0 1 1 1\n0.5 2 2 0\n";
+  write("reconstructor: {method: firenet, firenet: {weights: " + name + ".onnx}}\n");
+  expect_refused("reconstruct events.txt --config dark.yaml", ".onnx");
+}
+
 TEST_F(BadScenarioTest, AModelThatIsNoSceneIsRefused) {
   expect_refused_text("model: arena.xml\n", "arena.xml");
 }

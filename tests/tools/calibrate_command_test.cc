@@ -114,6 +114,8 @@ TEST_F(CalibrateCommandTest, too_few_boards_end_in_one_line_and_no_file) {
 TEST_F(CalibrateCommandTest, bad_input_ends_in_one_line_and_no_file) {
   std::ofstream(folder_ / "events.txt") << "0 1 1 1\n0.5 2 2 0\n";
   std::ofstream(folder_ / "layout.yaml") << "tags: [{id: 1, side: 2}]\n";
+  std::ofstream(folder_ / "twice.yaml") << "tags: [{id: 1}, {id: 1}]\n";
+  std::ofstream(folder_ / "empty.txt") << "# nothing\n";
   expect_refused("none.aedat4 --board checkerboard --out camera.yaml", "none.aedat4");
   expect_refused("events.txt --board checkerboard --out camera.png", "ending in .yaml");
   expect_refused("events.txt --board circles --out camera.yaml", "circles");
@@ -128,8 +130,51 @@ TEST_F(CalibrateCommandTest, bad_input_ends_in_one_line_and_no_file) {
   expect_refused("events.txt --board checkerboard --method magic --out camera.yaml",
                  "--method = magic");
   expect_refused("events.txt --board checkerboard --frames --out camera.yaml",
-                 "the recording has no frames");
+                 "events.txt: the recording has no frames");
+  expect_refused("empty.txt --size 20x20 --board checkerboard --out camera.yaml",
+                 "empty.txt: no events");
+  expect_refused("events.txt --board tags --layout twice.yaml --out camera.yaml",
+                 "twice.yaml: board.tags: id = 1 is there twice");
   expect_refused("events.txt --board checkerboard --out camera.yaml", "in 0 of 5 pictures");
+}
+
+TEST_F(CalibrateCommandTest, options_that_would_do_nothing_are_refused) {
+  std::ofstream(folder_ / "events.txt") << "0 1 1 1\n0.5 2 2 0\n";
+  fs::create_directory(folder_ / "boards");
+  const std::string rest = " --out camera.yaml";
+  for (const char* option : {"--corners 9x6", "--square-m 0.03"})
+    expect_refused(std::string("events.txt --board tags ") + option + rest,
+                   " is for --board checkerboard");
+  for (const char* option : {"--method esi", "--fps 10", "--frames", "--size 20x20"})
+    expect_refused(std::string("boards --board tags ") + option + rest,
+                   " is for recordings, not for a folder of pictures");
+  for (const char* option : {"--method esi", "--fps 10"})
+    expect_refused(std::string("events.txt --frames --board tags ") + option + rest,
+                   " is for events, not for --frames");
+  for (const char* fps : {"0", "1e6", "nan"})
+    expect_refused(std::string("none.txt --board tags --fps ") + fps + rest,
+                   "allowed 0.01 to 100000");
+}
+
+TEST_F(CalibrateCommandTest, says_what_of_the_recording_could_not_be_used) {
+  std::ofstream(folder_ / "events.txt") << "0 1 1 1\n0.5 2 2 0\n0.3 2 2 0\n";
+  EXPECT_EQ(run("events.txt --size 20x20 --board checkerboard --out camera.yaml"), 2);
+  EXPECT_NE(err.find("warning: "), std::string::npos) << err;
+  EXPECT_NE(err.find("1 running backwards"), std::string::npos) << err;
+}
+
+TEST_F(CalibrateCommandTest, leaves_nothing_when_it_is_interrupted) {
+  {  // So long that the signal comes while the sensor's size is looked for.
+    std::ofstream events(folder_ / "events.txt");
+    for (int i = 0; i < 1'000'000; ++i) events << i * 1e-6 << " 300 200 1\n";
+  }
+  EXPECT_EQ(test::interrupt_when_there_is(
+                folder_ / "camera.part.yaml",
+                {"calibrate", (folder_ / "events.txt").string(), "--board", "checkerboard", "--out",
+                 (folder_ / "camera.yaml").string(), "--quiet"}),
+            130);
+  for (const auto& entry : fs::directory_iterator(folder_.path()))
+    EXPECT_EQ(entry.path().filename(), "events.txt");
 }
 
 }  // namespace

@@ -161,7 +161,7 @@ TEST_F(ReconstructCommandTest, refuses_options_that_make_no_sense) {
   expect_refused("events.txt --video", "--video needs --out");
   expect_refused("events.txt --size 12 --out out", "--size = 12");
   std::ofstream(folder_ / "empty.txt") << "# nothing\n";
-  expect_refused("empty.txt --size 20x20 --out out", "no events");
+  expect_refused("empty.txt --size 20x20 --out out", "empty.txt: no events");
   std::ofstream(folder_ / "file") << "mine";
   expect_refused("events.txt --out file", "output folder file: is a file");
 }

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Trains esi_net on the samples of make_samples and writes esi/esi_net_weights.cc.
 
-    make_samples 1 300 DIR                      # some 15 minutes on two cores
-    python3 train.py DIR esi/esi_net_weights.cc # some 20 minutes on one
+    make_samples 1 300 DIR                      # some 10 minutes on two cores
+    python3 train.py DIR esi/esi_net_weights.cc # some 15 minutes on one
 
 Needs Debian's python3-torch and python3-numpy. The last tenth of the seeds is kept back
 to judge by. The same samples, seed and build of torch give the same weights.
@@ -198,7 +198,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("samples", help="the folder that make_samples filled")
     parser.add_argument("out", help="the C++ file to write")
-    parser.add_argument("--steps", type=int, default=8000)
+    parser.add_argument("--steps", type=int, default=18000)
     parser.add_argument("--batch", type=int, default=8)
     parser.add_argument("--rate", type=float, default=2e-3)
     parser.add_argument("--seed", type=int, default=1)
