@@ -11,7 +11,7 @@
 namespace nightjar::esi {
 
 /// Sums of events with seven different memories a pixel, joined at picture time by a small
-/// convolution network that was trained on the simulator (docs/decisions/0008).
+/// convolution network that was trained on the simulator (docs/decisions/0009).
 ///
 /// No one decay suits hovering and fast flight, darkness and light: a long memory keeps the
 /// picture and the noise, a short one loses both. Here each pixel has several, and the

@@ -4,7 +4,7 @@
 
 namespace nightjar::esi {
 
-/// Several ESI sums a pixel, joined by a small convolution network (docs/decisions/0008).
+/// Several ESI sums a pixel, joined by a small convolution network (docs/decisions/0009).
 /// Nothing in it is tuned to a scene; only how its answer is shown can be chosen.
 struct EsiNetConfig {
   double levels_per_sigma = 45.0;  ///< Grey levels for one deviation of the scene's luminance.
