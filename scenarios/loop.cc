@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <future>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -68,9 +67,8 @@ class Run {
   TrackerNode tracker_;
   RecordNode records_;
   FlightEnd end_;
-  core::StageTimer handling_{"all messages", "handling"};
-  core::StageTimer waiting_{"wait for handling", "world"};
-  core::StageTimer filming_{"film", "world"};
+  core::StageTimer handling_{"all messages", "loop"};
+  core::StageTimer filming_{"film", "loop"};
   core::MissionPhase phase_ = core::MissionPhase::search;
 };
 
@@ -118,15 +116,15 @@ void Run::take(const PictureRecord& record) {
 
 std::vector<core::StageTime> Run::stage_times() const {
   std::vector<core::StageTime> times = simulation_.stage_times();
-  times.insert(times.end(), {waiting_.time(), reconstruction_.stage_time(), tracker_.stage_time(),
-                             handling_.time()});
+  times.insert(times.end(),
+               {reconstruction_.stage_time(), tracker_.stage_time(), handling_.time()});
   if (video_) times.push_back(filming_.time());
   std::ranges::stable_sort(times, {},
                            [](const core::StageTime& t) { return std::string_view(t.thread); });
   return times;
 }
 
-/// Publishes the packet flown last and has all modules do their work on it.
+/// Publishes the earliest packet flown and has all modules do their work on it.
 void Run::handle() {
   const std::size_t events = world_.publish();
   scorer_.add_events(static_cast<std::int64_t>(events));
@@ -143,9 +141,8 @@ void Run::fly() {
   film();
   while (!end_.reached(simulation_.world().truth())) {
     world_.take_setpoint();
-    std::future<void> handled = std::async(std::launch::async, [this] { handle(); });
     world_.fly();
-    waiting_([&] { handled.get(); });
+    handle();  // the packet before
     film();
     if (options_.on_progress)
       options_.on_progress(core::seconds(simulation_.world().now()), scenario_.duration_s,

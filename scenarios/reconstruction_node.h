@@ -26,7 +26,7 @@ class ReconstructionNode {
   ReconstructorFeed feed_;
   core::Picture picture_;
   bool begun_ = false;
-  core::StageTimer reconstructing_{"reconstruct", "handling"};
+  core::StageTimer reconstructing_{"reconstruct", "loop"};
 };
 
 }  // namespace nightjar::scenarios

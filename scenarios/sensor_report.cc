@@ -35,9 +35,8 @@ class Exposure {
 
   void show(core::Time t, const core::Image<float>& luminance_lux) {
     camera_.expose(t, luminance_lux);
-    const core::EventPacket packet = camera_.take_packet();
+    const core::EventPacket packet = camera_.take(t).packet;
     events_.insert(events_.end(), packet.events.begin(), packet.events.end());
-    camera_.take_frames();
     end_ = t;
   }
 

@@ -1,7 +1,5 @@
 #include "scenarios/simulate.h"
 
-#include <future>
-
 #include "scenarios/flight_end.h"
 #include "scenarios/simulation_node.h"
 #include "scenarios/source_check.h"
@@ -25,9 +23,8 @@ void simulate(const Scenario& scenario, SourceLink& link) {
     const core::Time flown = simulation.world().now();
     link.wait_until_due(flown);
     world.take_setpoint();
-    std::future<void> handled = std::async(std::launch::async, handle, flown);
     world.fly();
-    handled.get();
+    handle(flown);
   }
   link.wait_until_due(simulation.world().now());
   handle(simulation.world().now());

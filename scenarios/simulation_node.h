@@ -14,8 +14,7 @@ class SimulationNode {
 
   /// Fixes the setpoint to fly next: the last that came.
   void take_setpoint() { flown_ = latest_; }
-  /// Flies one packet under it. Touches no bus, so the messages of the packet before
-  /// may be published and handled meanwhile.
+  /// Flies one packet under it. Touches no bus.
   void fly() { simulation_.fly(flown_); }
   /// Publishes what the earliest packet flown and not yet published gave. Truth and
   /// vehicle state go first: whoever handles the picture made of the events has them by

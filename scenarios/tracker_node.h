@@ -21,7 +21,7 @@ class TrackerNode {
 
  private:
   tracker::Tracker tracker_;
-  core::StageTimer tracking_{"track", "handling"};
+  core::StageTimer tracking_{"track", "loop"};
 };
 
 }  // namespace nightjar::scenarios

@@ -98,8 +98,9 @@ CarriedStep CarriedCamera::next() {
   const core::Time packet_end = now_ + packet_interval_;
   while (now_ < packet_end) render(next_render(packet_end));
   CarriedStep step;
-  step.packet = camera_.take_packet();
-  step.frames = camera_.take_frames();
+  CameraOutput output = camera_.take(now_);
+  step.packet = std::move(output.packet);
+  step.frames = std::move(output.frames);
   step.truth.t = now_;
   step.truth.T_world_camera = T_world_camera(now_);
   step.truth.T_world_tag = scene_.T_world_site(tag_site_);

@@ -50,6 +50,7 @@ Scene::Scene(const std::filesystem::path& model_file) : file_(model_file) {
     throw std::invalid_argument(fmt::format("{}: {}", model_file.string(), text));
   }
   data_.reset(mj_makeData(model_.get()));
+  moment_.reset(mj_makeData(model_.get()));
   settle();
 }
 
@@ -103,10 +104,30 @@ void Scene::place(const std::string& free_joint, const Eigen::Isometry3d& T) {
   mju_zero(data_->qvel + model_->jnt_dofadr[joint], 6);
 }
 
-void Scene::settle() { mj_forward(model_.get(), data_.get()); }
+void Scene::settle() {
+  note_posed();
+  mj_forward(model_.get(), data_.get());
+}
+
+void Scene::note_posed() {
+  posed_qpos_.assign(data_->qpos, data_->qpos + model_->nq);
+  posed_qvel_.assign(data_->qvel, data_->qvel + model_->nv);
+}
+
+mjData* Scene::moment(double ago_s) {
+  mju_copy(moment_->qpos, posed_qpos_.data(), model_->nq);
+  mj_integratePos(model_.get(), moment_->qpos, posed_qvel_.data(), -ago_s);
+  mju_copy(moment_->mocap_pos, data_->mocap_pos, 3 * model_->nmocap);
+  mju_copy(moment_->mocap_quat, data_->mocap_quat, 4 * model_->nmocap);
+  mj_kinematics(model_.get(), moment_.get());
+  mj_comPos(model_.get(), moment_.get());  // lights and cameras may follow a centre of mass
+  mj_camlight(model_.get(), moment_.get());
+  return moment_.get();
+}
 
 void Scene::step() {
   const double before_s = data_->time;
+  note_posed();
   mj_step(model_.get(), data_.get());
   check_warnings(*data_, before_s);
 }

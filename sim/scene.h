@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 struct mjModel_;
 struct mjData_;
@@ -45,6 +46,11 @@ class Scene {
   /// contacts or geoms left out for want of room.
   void step();
 
+  /// Where everything was `ago_s` before the moment that the poses above are of, 0 to the time
+  /// step: on the straight way that the step took it (MuJoCo's Euler and implicit integrators
+  /// move a body by its velocity at the step's end). Good for drawing; until the next call.
+  mjData_* moment(double ago_s);
+
  private:
   struct DeleteModel {
     void operator()(mjModel_*) const;
@@ -53,9 +59,15 @@ class Scene {
     void operator()(mjData_*) const;
   };
 
+  /// To be called where MuJoCo is about to work out poses.
+  void note_posed();
+
   std::filesystem::path file_;
   std::unique_ptr<mjModel_, DeleteModel> model_;
   std::unique_ptr<mjData_, DeleteData> data_;
+  std::unique_ptr<mjData_, DeleteData> moment_;  ///< For moment() alone.
+  // Of the poses, which MuJoCo works out before it moves on.
+  std::vector<double> posed_qpos_, posed_qvel_;
 };
 
 }  // namespace nightjar::sim

@@ -14,6 +14,12 @@
 
 namespace nightjar::sim {
 
+/// What a camera hands over at the end of a packet.
+struct CameraOutput {
+  core::EventPacket packet;
+  std::vector<core::ApsFrame> frames;  ///< Those completed in the packet's time.
+};
+
 /// The whole sensor behind the lens: pixels, readout, the camera's noise filter and
 /// the active pixels.
 class SimulatedCamera {
@@ -25,10 +31,10 @@ class SimulatedCamera {
   /// The luminance at `t`, later than in the call before.
   void expose(core::Time t, const core::Image<float>& luminance_lux);
 
-  /// All events read out since the packet before.
-  core::EventPacket take_packet();
-  /// The frames completed since the last call.
-  std::vector<core::ApsFrame> take_frames();
+  /// What has come since the packet before, which began at time 0 if this is the first, up
+  /// to and including `end`. What is later stays for the packets to come. `end` must not be
+  /// before the last one nor after the last exposure.
+  CameraOutput take(core::Time end);
 
   const EmulatorCounts& pixel_counts() const { return emulator_.counts(); }
   const ReadoutCounts& readout_counts() const { return readout_.counts(); }
@@ -40,13 +46,12 @@ class SimulatedCamera {
   BackgroundActivityFilter filter_;
   ApsSensor aps_;
   core::Time packet_begin_{};
-  core::Time now_{};
   std::vector<core::Event> requests_;
   std::vector<core::Event> events_;
   std::vector<core::ApsFrame> frames_;
-  core::StageTimer emulating_{"emulate pixels", "camera"};
-  core::StageTimer reading_out_{"read out", "camera"};
-  core::StageTimer exposing_{"expose APS", "camera"};
+  core::StageTimer emulating_{"emulate pixels", "loop"};
+  core::StageTimer reading_out_{"read out", "loop"};
+  core::StageTimer exposing_{"expose APS", "loop"};
 };
 
 }  // namespace nightjar::sim

@@ -3,12 +3,10 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
-#include <mutex>
 #include <vector>
 
 #include "core/imu.h"
 #include "core/truth.h"
-#include "sim/camera_thread.h"
 #include "sim/drawing_thread.h"
 #include "sim/simulated_camera.h"
 #include "sim/world.h"
@@ -25,9 +23,9 @@ struct SimulationStep {
 };
 
 /// How long after one render the next is due, when what is in view moves at
-/// `motion_px_s`: before it may have moved max_motion_px, in whole physics steps, at
-/// least one.
-core::Time render_interval(const RendererConfig& config, double motion_px_s, core::Time step);
+/// `motion_px_s`: before it may have moved max_motion_px, but not before a physics step of
+/// `time_step`.
+core::Time render_interval(const RendererConfig& config, double motion_px_s, core::Time time_step);
 
 /// The world seen through the event camera, packet by packet.
 class Simulation {
@@ -38,16 +36,16 @@ class Simulation {
              const std::filesystem::path& model_file, double illuminance_lux, std::uint64_t seed);
 
   /// Flies under `setpoint` to the end of the next packet, looking after each
-  /// render_interval() and at the packet's end (docs/decisions/0002). What was seen may
-  /// still be drawn and exposed afterwards (docs/decisions/0003).
+  /// render_interval() (docs/decisions/0002). What was seen is drawn on another thread
+  /// meanwhile and afterwards (docs/decisions/0003).
   void fly(const core::AttitudeSetpoint& setpoint);
 
-  /// What the earliest packet flown and not yet taken gave; waits for the camera. May
-  /// run beside fly() of the next packet. There must be such a packet: one whose fly()
-  /// has returned.
+  /// What the earliest packet flown and not yet taken gave; there must be one. Exposes the
+  /// camera to what was drawn, up to the first picture of the packet's end or later. If nothing
+  /// has been looked at since that end, looks now: flying on before taking spares this picture.
   SimulationStep take();
 
-  /// Both in one.
+  /// Flies one packet and takes it.
   SimulationStep advance(const core::AttitudeSetpoint& setpoint);
 
   const World& world() const { return world_; }
@@ -55,29 +53,29 @@ class Simulation {
   /// The camera, to look at once every packet is taken.
   const SimulatedCamera& camera() const { return camera_; }
   std::uint64_t renders() const { return drawing_thread_.drawn(); }
-  /// Of them, those that came later than max_motion_px asks, a physics step after the
-  /// one before.
+  /// Of the intervals between them, those that were longer than max_motion_px asks: a physics
+  /// step, the shortest there is.
   std::uint64_t drawn_late() const { return drawn_late_; }
   /// Of the world and of its camera.
   std::vector<core::StageTime> stage_times() const;
 
  private:
-  void look(bool ends_packet);
-  /// Keeps what the world gives at the end of a packet.
-  void note_world();
+  /// Looks at time `t`, since the physics step before, and plans when to look again.
+  void look(core::Time t);
+  /// Exposes the camera to the next picture.
+  void expose();
 
   RendererConfig renderer_config_;
   core::Time packet_interval_;
   World world_;
   SimulatedCamera camera_;
+  core::Time looked_{}, due_{};       ///< The last look and the next.
+  core::Time exposed_{-1};            ///< The last picture's.
+  std::deque<SimulationStep> flown_;  ///< Without what the camera gives.
   std::uint64_t drawn_late_ = 0;
-  core::StageTimer moving_{"step physics", "world"};
-  core::StageTimer bounding_{"bound motion", "world"};
-  core::StageTimer waiting_{"wait for camera", "handling"};
-  std::mutex mutex_;
-  std::deque<SimulationStep> flown_;  ///< Without what the camera gives; under mutex_.
-  CameraThread camera_thread_;        // uses the camera
-  DrawingThread drawing_thread_;      // last: it uses the world's renderer and the other thread
+  core::StageTimer moving_{"step physics", "loop"};
+  core::StageTimer bounding_{"bound motion", "loop"};
+  DrawingThread drawing_thread_;  // last: it uses the world's renderer
 };
 
 }  // namespace nightjar::sim

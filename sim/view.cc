@@ -11,12 +11,12 @@ namespace {
 constexpr int kMaxGeoms = 500;
 constexpr int kGroupUav = 1;
 
-void update(Scene& scene, mjvCamera& camera, bool with_uav, mjvScene& geoms) {
+void update(const mjModel& model, mjData& data, mjvCamera& camera, bool with_uav, mjvScene& geoms) {
   mjvOption option;
   mjv_defaultOption(&option);
   for (int group = 0; group < mjNGROUP; ++group)
     option.geomgroup[group] = group == View::kSensorGroup || (with_uav && group == kGroupUav);
-  mjv_updateScene(scene.model(), scene.data(), &option, nullptr, &camera, mjCAT_ALL, &geoms);
+  mjv_updateScene(&model, &data, &option, nullptr, &camera, mjCAT_ALL, &geoms);
 }
 
 /// Nearest first, so that what it hides need not be shaded. The picture is the same.
@@ -43,12 +43,12 @@ View::View(const Scene& scene) : geoms_(new mjvScene) {
     geoms_->flags[flag] = 0;
 }
 
-void View::look(Scene& scene, int camera_id) {
+void View::look(Scene& scene, int camera_id, double ago_s) {
   mjvCamera camera;
   mjv_defaultCamera(&camera);
   camera.type = mjCAMERA_FIXED;
   camera.fixedcamid = camera_id;
-  update(scene, camera, false, *geoms_);
+  update(*scene.model(), ago_s > 0 ? *scene.moment(ago_s) : *scene.data(), camera, false, *geoms_);
   sort(*geoms_);
 }
 
@@ -61,7 +61,7 @@ void View::look_at(Scene& scene, const std::array<double, 3>& look_at_m, double 
   camera.distance = distance_m;
   camera.azimuth = azimuth_deg;
   camera.elevation = elevation_deg;
-  update(scene, camera, true, *geoms_);
+  update(*scene.model(), *scene.data(), camera, true, *geoms_);
 }
 
 }  // namespace nightjar::sim

@@ -19,8 +19,8 @@ class View {
   /// Of `scene`, and of any with the same model. Sees nothing yet.
   explicit View(const Scene& scene);
 
-  /// What the fixed `camera` sees of kSensorGroup.
-  void look(Scene& scene, int camera);
+  /// What the fixed `camera` sees, or saw `ago_s` earlier (Scene::moment()), of kSensorGroup.
+  void look(Scene& scene, int camera, double ago_s = 0);
 
   /// What lies around `look_at_m`, all groups that are ever drawn, from `distance_m` away.
   /// Angles in degrees, MuJoCo's free camera.

@@ -58,8 +58,9 @@ class World {
   const Scene& scene() const { return scene_; }
   /// Draws what look() saw; not meant for others once DrawingThread has it.
   Renderer& renderer() { return renderer_; }
-  /// What the UAV's camera sees now, to be drawn by renderer().
-  void look(View& view) { view.look(scene_, camera_); }
+  /// What the UAV's camera saw at `t`, now or less than a time step ago, to be drawn by
+  /// renderer().
+  void look(core::Time t, View& view) { view.look(scene_, camera_, core::seconds(now_ - t)); }
   /// Both at once.
   void draw(double white_lux, core::Image<float>& luminance_lux) {
     renderer_.draw(scene_, camera_, white_lux, luminance_lux);

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <limits>
+#include <vector>
 
 #include "tests/support/sim_scene.h"
 
@@ -59,6 +62,39 @@ TEST(Scene, VelocityOfAPointIsThatOfARigidBody) {
   const Eigen::Vector3d p = scene.T_world_body(uav).translation() + arm;
   EXPECT_LT((scene.velocity_at(uav, p) - (linear + omega.cross(arm))).norm(), 1e-12);
   EXPECT_LT((scene.omega_world(uav) - omega).norm(), 1e-12);
+}
+
+/// Where all geoms, and the camera, are.
+std::vector<double> poses(const mjModel& model, const mjData& data) {
+  std::vector<double> all(data.geom_xpos, data.geom_xpos + 3 * model.ngeom);
+  all.insert(all.end(), data.geom_xmat, data.geom_xmat + 9 * model.ngeom);
+  all.insert(all.end(), data.cam_xpos, data.cam_xpos + 3 * model.ncam);
+  return all;
+}
+
+TEST(Scene, AMomentAgoIsOnTheWayFromTheStepBefore) {
+  Scene scene(test::arena());
+  for (int i = 0; i < 3; ++i) scene.data()->qvel[i] = 2;  // thrown and tumbling
+  for (int i = 3; i < 6; ++i) scene.data()->qvel[i] = 5;
+  for (int i = 0; i < 10; ++i) scene.step();
+  const mjModel& model = *scene.model();
+  const std::vector<double> before = poses(model, *scene.data());
+  scene.step();
+  const std::vector<double> now = poses(model, *scene.data());
+  const double step_s = model.opt.timestep;
+  const auto furthest = [](const std::vector<double>& a, const std::vector<double>& b) {
+    double most = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(a[i] - b[i]));
+    return most;
+  };
+  ASSERT_GT(furthest(before, now), 9e-4);                                   // 2 m/s
+  EXPECT_LT(furthest(poses(model, *scene.moment(step_s)), before), 1e-12);  // rounding
+  EXPECT_LT(furthest(poses(model, *scene.moment(0)), now), 1e-12);
+  std::vector<double> middle = before;
+  for (std::size_t i = 0; i < now.size(); ++i) middle[i] = (before[i] + now[i]) / 2;
+  // A turn of 9 rad/s bends away from the chord by (9 * 0.25 ms)^2 / 2.
+  EXPECT_LT(furthest(poses(model, *scene.moment(step_s / 2)), middle), 2.6e-6);
+  EXPECT_EQ(poses(model, *scene.data()), now);  // untouched
 }
 
 TEST(Scene, DivergedPhysicsThrowsAndLeavesNoLogFile) {

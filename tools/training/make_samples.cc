@@ -166,8 +166,7 @@ void make_samples(std::uint64_t seed, const std::string& folder) {
   for (core::Time now = render(core::Time(0)); now < end;) {
     for (const core::Time packet_end = now + kPacket; now < packet_end;)
       now = render(next_render(scene, now, packet_end));
-    net.process(camera.take_packet().events);
-    camera.take_frames();
+    net.process(camera.take(now).packet.events);
     if (now < next_sample) continue;
     write_patches(net.features(now), luminance_lux, random, features.stream(), truth.stream());
     const double soon_s = between(0.5, 1.5, random) * core::seconds(now);

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "esi/memory_cell.h"
+
+namespace nightjar::esi {
+
+/// MemoryVariant::integrate by `kTake`, which takes one event. Cells come from the second or
+/// third cache, so they are fetched ahead, but not far: nearly each lies in a page of its own,
+/// and of those a processor has some 70 at hand.
+template <void (*kTake)(const PackedEvent&, MemoryCell*)>
+[[gnu::always_inline]] inline void integrate_blocks(EventRun& events, MemoryCell* cells) {
+  constexpr std::size_t kBlock = 128, kAhead = 24;
+  const auto* bytes = reinterpret_cast<const char*>(cells);
+  EventRun run = events;
+  for (auto block = run.next(kBlock); !block.empty(); block = run.next(kBlock)) {
+    // Perhaps not checked yet, but to fetch from where nothing is does no harm.
+    const PackedEvent* ahead = block.data() + std::min(kAhead, run.rest().size());
+    for (std::size_t i = 0; i < block.size(); ++i) {
+      // Either half of the cell will do, which saves taking the polarity off.
+      __builtin_prefetch(bytes + sizeof(MemoryCell) / 2 * ahead[i].pixel_on, 1);
+      kTake(block[i], cells);
+    }
+  }
+  events = run;
+}
+
+}  // namespace nightjar::esi
