@@ -3,10 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <utility>
+#include <stdexcept>
 
 namespace nightjar::sim {
 namespace {
@@ -18,14 +15,30 @@ constexpr int kAdcBits = 10;
 constexpr int kAdcCodes = 1 << kAdcBits;
 constexpr int kAdcCodesPerByte = kAdcCodes / 256;
 
-// NaN and negative light is none; infinite light saturates without spoiling sums.
-float usable(float luminance_lux) {
-  constexpr float kMost = 1e12f;
-  return luminance_lux > 0 ? std::min(luminance_lux, kMost) : 0.0f;
+ApsConversion conversion(const ApsConfig& config) {
+  const double black_codes = config.black_level * kAdcCodesPerByte;
+  return {.read_variance_e2 = static_cast<float>(config.read_noise_e * config.read_noise_e),
+          .full_well_e = static_cast<float>(config.full_well_e),
+          .codes_per_e = static_cast<float>((kAdcCodes - 1 - black_codes) / config.full_well_e),
+          .black_codes = static_cast<float>(black_codes),
+          .most_codes = kAdcCodes - 1,
+          .dropped_bits = kAdcBits - static_cast<int>(config.bits)};
 }
 
-bool is_bad(float luminance_lux) {
-  return !(luminance_lux >= 0 && luminance_lux < std::numeric_limits<float>::infinity());
+/// What a step's pictures count for in an exposure, in s.
+struct Weights {
+  float before_s = 0, now_s = 0;
+};
+
+/// Of the step from `last` to `t` what falls into [begin, end).
+Weights weights(core::Time last, core::Time t, core::Time begin, core::Time end) {
+  const core::Time from = std::max(last, begin), to = std::min(t, end);
+  if (from >= to) return {};
+  // Mean of a straight line: its value in the middle of what falls into the exposure.
+  const double middle = core::seconds((from - last) + (to - last)) / 2;
+  const double share = middle / core::seconds(t - last);
+  return {.before_s = static_cast<float>((1 - share) * core::seconds(to - from)),
+          .now_s = static_cast<float>(share * core::seconds(to - from))};
 }
 
 }  // namespace
@@ -46,8 +59,9 @@ ApsSensor::ApsSensor(const ApsConfig& config, core::Resolution size, double illu
   core::check_range("illuminance_lux", illuminance_lux, 1e-6, 1e9);
   exposure_ = aps_exposure(config, illuminance_lux);
   interval_ = std::max(exposure_, core::from_seconds(config.interval_ms * 1e-3));
+  conversion_ = conversion(config);
   last_lux_.assign(size.pixels(), 0.0f);
-  next_lux_ = charge_lux_s_ = last_lux_;
+  charge_lux_s_ = last_lux_;
 
   core::Random gain = core::random_stream(seed, "aps_gain");
   core::Random offset = core::random_stream(seed, "aps_offset");
@@ -71,63 +85,48 @@ void ApsSensor::check(core::Time t, const core::Image<float>& luminance_lux) con
 std::optional<core::ApsFrame> ApsSensor::add(core::Time t,
                                              const core::Image<float>& luminance_lux) {
   check(t, luminance_lux);
-  take(luminance_lux);
   std::optional<core::ApsFrame> frame;
   if (!last_) {
     begin_ = t;
-  } else {
-    integrate(t);
-    if (t >= begin_ + exposure_) {
-      frame = read();
-      begin_ += interval_;
-      integrate(t);  // the next exposure may have begun within this step
-    }
+  } else if (t >= begin_ + exposure_) {
+    expose(t, luminance_lux, false);
+    frame = read();
+    begin_ += interval_;  // and the next exposure may have begun within this step
   }
-  std::swap(last_lux_, next_lux_);
+  expose(t, luminance_lux, true);
   last_ = t;
   return frame;
 }
 
-void ApsSensor::take(const core::Image<float>& luminance_lux) {
-  const auto pixels = luminance_lux.pixels();
-  std::ranges::transform(pixels, next_lux_.begin(), usable);
-  int bad = 0;
-  for (const float lux : pixels) bad += is_bad(lux);
-  bad_radiance_ += static_cast<std::uint64_t>(bad);
-}
-
-void ApsSensor::integrate(core::Time t) {
-  const core::Time from = std::max(*last_, begin_);
-  const core::Time to = std::min(t, begin_ + exposure_);
-  if (from >= to) return;
-  // Mean of a straight line: its value in the middle of what falls into the exposure.
-  const double middle = core::seconds((from - *last_) + (to - *last_)) / 2;
-  const double share = middle / core::seconds(t - *last_);
-  const auto now = static_cast<float>(share * core::seconds(to - from));
-  const auto before = static_cast<float>((1 - share) * core::seconds(to - from));
-  for (std::size_t p = 0; p < charge_lux_s_.size(); ++p)
-    charge_lux_s_[p] += before * last_lux_[p] + now * next_lux_[p];
+void ApsSensor::expose(core::Time t, const core::Image<float>& luminance_lux, bool keep) {
+  constexpr std::size_t kChunk = 2048;  // what is read twice is still in the nearest cache
+  const Weights w = last_ ? weights(*last_, t, begin_, begin_ + exposure_) : Weights{};
+  const ApsVariant& kernel = best_aps_variant();
+  const auto lux = luminance_lux.pixels();
+  for (std::size_t p = 0; p < lux.size(); p += kChunk) {
+    const auto count = static_cast<std::uint32_t>(std::min(kChunk, lux.size() - p));
+    if (w.before_s > 0 || w.now_s > 0)
+      kernel.integrate(&last_lux_[p], w.before_s, &lux[p], w.now_s, count, &charge_lux_s_[p]);
+    if (keep) bad_radiance_ += kernel.take(&lux[p], count, &last_lux_[p]);
+  }
 }
 
 core::ApsFrame ApsSensor::read() {
   core::ApsFrame frame{begin_, begin_ + exposure_, static_cast<int>(config_.bits),
                        core::Image<std::uint16_t>(size_)};
-  const int dropped_bits = kAdcBits - frame.bits;
-  const double black = config_.black_level * kAdcCodesPerByte;
-  const double codes_per_e = (kAdcCodes - 1 - black) / config_.full_well_e;
-  const double read_variance = config_.read_noise_e * config_.read_noise_e;
   const auto gray = frame.gray.pixels();
-  std::array<double, 2> noise{};
-  for (std::size_t p = 0; p < gray.size(); ++p) {
-    if (p % 2 == 0) noise = core::normal_pair(noise_);
-    // Photons are counted by the hundreds here, where Poisson is all but Gaussian.
-    const double photo_e = static_cast<double>(charge_lux_s_[p]) * gain_[p];
-    const double noise_e = std::sqrt(photo_e + read_variance) * noise[p % 2];
-    const double stored_e = std::min(photo_e + noise_e + offset_e_[p], config_.full_well_e);
-    const double code = std::clamp(black + codes_per_e * stored_e, 0.0, kAdcCodes - 1.0);
-    gray[p] = static_cast<std::uint16_t>(static_cast<int>(code + 0.5) >> dropped_bits);
+  ApsDraws draws;
+  for (std::size_t p = 0; p < gray.size(); p += kApsBatch) {
+    for (std::uint32_t i = 0; i < kApsBatch / 2; ++i) {
+      const std::uint64_t bits = noise_();
+      draws.high[i] = static_cast<std::uint32_t>(bits >> 32);
+      draws.low[i] = static_cast<std::uint32_t>(bits);
+    }
+    const auto count =
+        static_cast<std::uint32_t>(std::min<std::size_t>(kApsBatch, gray.size() - p));
+    best_aps_variant().read(conversion_, draws, &gain_[p], &offset_e_[p], count, &charge_lux_s_[p],
+                            &gray[p]);
   }
-  std::ranges::fill(charge_lux_s_, 0.0f);
   return frame;
 }
 

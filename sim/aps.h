@@ -7,6 +7,7 @@
 #include "core/event.h"
 #include "core/image.h"
 #include "core/random.h"
+#include "sim/aps_kernel.h"
 #include "sim/sensor_config.h"
 
 namespace nightjar::sim {
@@ -41,10 +42,9 @@ class ApsSensor {
 
  private:
   void check(core::Time t, const core::Image<float>& luminance_lux) const;
-  /// Copies to `next_lux_`, corrects and counts what is no luminance.
-  void take(const core::Image<float>& luminance_lux);
-  /// Adds to the charge what falls into the exposure of the step to `t`.
-  void integrate(core::Time t);
+  /// Adds to the charge what falls into the exposure of the step to `t`; with `keep` the
+  /// luminance is then that at `last_`, and what is none is counted.
+  void expose(core::Time t, const core::Image<float>& luminance_lux, bool keep);
   core::ApsFrame read();
 
   ApsConfig config_;
@@ -52,13 +52,13 @@ class ApsSensor {
   core::Time interval_;
   std::vector<float> gain_;      ///< Electrons per lux s, fixed pattern included.
   std::vector<float> offset_e_;  ///< Fixed pattern.
-  core::Random noise_;           ///< One draw a pixel and frame, of shot and read noise together.
+  ApsConversion conversion_;
+  core::Random noise_;  ///< One deviate a pixel and frame, of shot and read noise together.
 
   std::optional<core::Time> last_;
   core::Time begin_{};  ///< Of the exposure under way or the next one.
   core::Resolution size_;
   std::vector<float> last_lux_;  ///< At `last_`.
-  std::vector<float> next_lux_;
   std::vector<float> charge_lux_s_;
   std::uint64_t bad_radiance_ = 0;
 };

@@ -21,24 +21,46 @@ class BucketSort {
     const int shift = std::max(0, bits(most) - bits(items.size()));
     ends_.assign((most >> shift) + 2, 0);
     for (const Item& item : items) ++ends_[(key(item) >> shift) + 1];
-    for (std::size_t b = 1; b < ends_.size(); ++b) ends_[b] += ends_[b - 1];
+    std::uint32_t most_in_one = 0;
+    for (std::size_t b = 1; b < ends_.size(); ++b) {
+      most_in_one = std::max(most_in_one, ends_[b]);
+      ends_[b] += ends_[b - 1];
+    }
     sorted_.resize(items.size());
     for (const Item& item : items) sorted_[ends_[key(item) >> shift]++] = item;
     items.swap(sorted_);
-    std::uint32_t begin = 0;
-    for (const std::uint32_t end : ends_) {
-      if (end > begin + 1) sort_bucket(items.data() + begin, items.data() + end, less);
-      begin = end;
-    }
+    if (most_in_one <= kFew)
+      insert(items.data(), items.data() + items.size(), less);
+    else
+      sort_buckets(items, less);
   }
 
  private:
+  static constexpr std::uint32_t kFew = 16;
+
+  /// Quick where items are near their places.
   template <class Less>
-  static void sort_bucket(Item* begin, Item* end, Less less) {
-    constexpr int kFew = 16;
-    if (end - begin > kFew) return std::sort(begin, end, less);
-    for (Item* i = begin + 1; i < end; ++i)
-      for (Item* k = i; k > begin && less(*k, k[-1]); --k) std::swap(*k, k[-1]);
+  static void insert(Item* begin, Item* end, Less less) {
+    for (Item* i = begin + 1; i < end; ++i) {
+      if (!less(*i, i[-1])) continue;
+      const Item item = *i;
+      Item* k = i;
+      do *k = k[-1];
+      while (--k > begin && less(item, k[-1]));
+      *k = item;
+    }
+  }
+
+  template <class Less>
+  void sort_buckets(std::vector<Item>& items, Less less) {
+    std::uint32_t begin = 0;
+    for (const std::uint32_t end : ends_) {
+      if (end > begin + kFew)
+        std::sort(items.data() + begin, items.data() + end, less);
+      else if (end > begin + 1)
+        insert(items.data() + begin, items.data() + end, less);
+      begin = end;
+    }
   }
 
   std::vector<std::uint32_t> ends_;

@@ -100,7 +100,14 @@ void PixelWalks::run(FiredEvents& fired, EmulatorCounts& counts) {
   constexpr double kToleranceUs = 0.05;
   while (!open_.empty()) {
     crossings_.count = 0;
-    std::erase_if(open_, [&](std::uint32_t k) { return !go_to_crossing(k, fired, counts); });
+    // Nobody can guess which are finished, so that there is no branch for it; a loop of our own,
+    // since std::erase_if would call what is inlined here.
+    std::size_t still_open = 0;
+    for (const std::uint32_t k : open_) {
+      open_[still_open] = k;
+      still_open += go_to_crossing(k, fired, counts);
+    }
+    open_.resize(still_open);
     solve(crossings_, kToleranceUs / dt_us_);
     for (std::uint32_t k = 0; k < crossings_.count; ++k)
       fire(open_[k], crossings_.s[k], crossings_.level[k], crossings_.level[k] > 0, fired);

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <span>
 #include <vector>
 
@@ -36,9 +35,28 @@ class Readout {
   int waiting() const { return waiting_; }
 
  private:
+  /// A request that waits; of an unused one only `next` counts.
+  struct Slot {
+    core::Event request;
+    std::uint32_t next;
+  };
+  /// What waits in a row, first come first served.
+  struct Row {
+    std::uint32_t first = 0, last = 0;  ///< Of `slots_`.
+    int waiting = 0;
+    std::uint16_t next_asking = 0;
+  };
+
   void check(core::Time until, std::span<const core::Event> requests) const;
-  /// Queues every request made by the time the arbiter has come to.
-  void admit(std::span<const core::Event>& requests);
+  /// Queues every request made by `now`, the time the arbiter has come to.
+  void admit(core::Time now, std::span<const core::Event>& requests);
+  /// With nothing waiting, reads requests from the front of `requests` on, as long as the
+  /// rows' turns come in their order: those that the arbiter finds together are in the order
+  /// of rows, and nobody asks before the last one's turn.
+  void read_in_order(std::span<const core::Event>& requests, std::vector<core::Event>& events);
+  /// The next request of the row whose turn it is; valid until the next admit().
+  const core::Event& take_next();
+  void ask(std::uint16_t y);
 
   ReadoutConfig config_;
   core::Resolution size_;
@@ -46,9 +64,11 @@ class Readout {
   std::int64_t free_ps_ = 0;  ///< When the arbiter can read the next event.
   core::Time until_{INT64_MIN};
   int waiting_ = 0;
-  int turn_left_ = 0;                          ///< Events left of the front row's turn.
-  std::deque<std::uint16_t> asking_rows_;      ///< Front has its turn.
-  std::vector<std::deque<core::Event>> rows_;  ///< What waits in each row.
+  int turn_left_ = 0;        ///< Events left of the turn of `first_asking_`.
+  std::vector<Slot> slots_;  ///< Lists of what waits in each row, and of unused ones.
+  std::uint32_t unused_ = 0;
+  std::vector<Row> rows_;
+  std::uint16_t first_asking_ = 0, last_asking_ = 0;  ///< Rows in a list, if any waits.
   ReadoutCounts counts_;
 };
 

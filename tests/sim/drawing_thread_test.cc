@@ -41,7 +41,9 @@ TEST(DrawingThread, draws_again_over_what_was_given_back) {
   for (int i = 0; i < 3; ++i) {
     thread.draw(i * 1ms, thread.blank_view());
     DrawingThread::Picture picture = thread.take();
-    if (i > 0) EXPECT_EQ(picture.luminance_lux.pixels().data(), pixels);
+    if (i > 0) {
+      EXPECT_EQ(picture.luminance_lux.pixels().data(), pixels);
+    }
     pixels = picture.luminance_lux.pixels().data();
     thread.give_back(std::move(picture));
   }

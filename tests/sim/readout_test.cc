@@ -3,8 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
+#include <deque>
 
+#include "core/random.h"
 #include "tests/support/events.h"
 
 namespace nightjar::sim {
@@ -28,6 +29,109 @@ std::vector<Event> burst(int t_us, int n) {
 
 bool ordered(const std::vector<Event>& events) {
   return std::ranges::is_sorted(events, {}, &Event::t);
+}
+
+/// The arbiter as it is described: a queue for each row, one event after the other.
+class PlainReadout {
+ public:
+  explicit PlainReadout(const ReadoutConfig& config)
+      : capacity_(config.queue_capacity_events),
+        service_ps_(std::llround(1e12 / config.max_event_rate_hz)),
+        rows_(kSize.height_px) {}
+
+  void step(Time until, std::span<const Event> requests, std::vector<Event>& events) {
+    for (;;) {
+      if (waiting == 0) {
+        if (requests.empty()) return;
+        free_ps_ = std::max(free_ps_, requests.front().t.count() * 1'000'000);
+      }
+      for (; !requests.empty() && requests.front().t.count() * 1'000'000 <= free_ps_;
+           requests = requests.subspan(1))
+        admit(requests.front());
+      const Time now(free_ps_ / 1'000'000);
+      if (now > until) return;
+      const Event request = take_next();
+      max_delay = std::max(max_delay, now - request.t);
+      events.push_back({now, request.x, request.y, request.on});
+      free_ps_ += service_ps_;
+    }
+  }
+
+  int waiting = 0;
+  std::uint64_t lost = 0;
+  Time max_delay{};
+
+ private:
+  void admit(const Event& request) {
+    if (waiting >= capacity_) {
+      ++lost;
+      return;
+    }
+    if (rows_[request.y].empty()) asking_.push_back(request.y);
+    rows_[request.y].push_back(request);
+    ++waiting;
+  }
+
+  Event take_next() {
+    std::deque<Event>& row = rows_[asking_.front()];
+    if (turn_left_ == 0) turn_left_ = row.size();
+    const Event request = row.front();
+    row.pop_front();
+    --waiting;
+    if (--turn_left_ > 0) return request;
+    if (!row.empty()) asking_.push_back(asking_.front());
+    asking_.pop_front();
+    return request;
+  }
+
+  int capacity_;
+  std::int64_t service_ps_, free_ps_ = 0;
+  std::size_t turn_left_ = 0;
+  std::deque<std::uint16_t> asking_;
+  std::vector<std::deque<Event>> rows_;
+};
+
+/// Requests of (begin, end] in bursts, so that the readout idles, queues and overflows.
+/// Ordered by time, and in the same microsecond by row if `by_row`.
+std::vector<Event> bursts(Time begin, Time end, bool by_row, core::Random& random) {
+  std::vector<Event> requests;
+  for (Time t = begin + Time(1); t <= end; t += Time(1 + random() % 40)) {
+    const auto size = static_cast<int>(random() % (random() % 8 == 0 ? 120 : 12));
+    const auto spread_us = 1 + random() % 6;
+    for (int i = 0; i < size; ++i)
+      requests.push_back({std::min(end, t + Time(random() % spread_us)),
+                          static_cast<std::uint16_t>(random() % 346),
+                          static_cast<std::uint16_t>(random() % 5), random() % 2 == 0});
+  }
+  std::ranges::stable_sort(requests, [&](const Event& a, const Event& b) {
+    return a.t != b.t ? a.t < b.t : by_row && a.y < b.y;
+  });
+  return requests;
+}
+
+TEST(Readout, does_what_a_queue_for_each_row_does) {
+  core::Random random = core::random_stream(3, "readout");
+  for (const double rate_hz : {1e6, 12e6, 1e9})
+    for (const int capacity : {1, 30, 12'000})
+      for (const bool by_row : {true, false}) {
+        const ReadoutConfig config{.max_event_rate_hz = rate_hz, .queue_capacity_events = capacity};
+        Readout readout(config, kSize);
+        PlainReadout plain(config);
+        std::vector<Event> events, expected;
+        Time begin{};
+        for (int step = 0; step < 200; ++step) {
+          const Time end = begin + Time(1 + random() % 300);
+          const std::vector<Event> requests = bursts(begin, end, by_row, random);
+          readout.step(end, requests, events);
+          plain.step(end, requests, expected);
+          ASSERT_EQ(events, expected) << rate_hz << ' ' << capacity << ' ' << by_row;
+          ASSERT_EQ(readout.waiting(), plain.waiting);
+          begin = end;
+        }
+        EXPECT_EQ(readout.counts().read, expected.size());
+        EXPECT_EQ(readout.counts().lost, plain.lost);
+        EXPECT_EQ(readout.counts().max_delay, plain.max_delay);
+      }
 }
 
 TEST(Readout, an_idle_readout_changes_nothing) {

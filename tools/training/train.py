@@ -209,7 +209,7 @@ def main():
     features, truth, seeds = load(arguments.samples)
     every = np.unique(seeds)
     known = ~np.isin(seeds, every[-max(1, len(every) // 10):])
-    x, y = torch.tensor(features), torch.tensor(truth)
+    x, y = torch.from_numpy(features), torch.from_numpy(truth)
     network = Network()
     print(f"{known.sum()} patches to learn from, {(~known).sum()} to judge by, "
           f"{sum(p.numel() for p in network.parameters())} weights", flush=True)
