@@ -47,16 +47,6 @@ void append_frame(std::vector<std::byte>& bytes, const RecordedFrame& frame) {
   bytes.insert(bytes.end(), pixels.begin(), pixels.end());
 }
 
-/// The first time of any list; 0 where all are empty.
-core::Time first_time(const RecordingPart& part) {
-  core::Time first = core::Time::max();
-  if (!part.events.empty()) first = std::min(first, part.events.front().t);
-  if (!part.frames.empty()) first = std::min(first, part.frames.front().frame_begin);
-  if (!part.imu.empty()) first = std::min(first, part.imu.front().t);
-  if (!part.triggers.empty()) first = std::min(first, part.triggers.front().t);
-  return first == core::Time::max() ? core::Time{} : first;
-}
-
 }  // namespace
 
 Aedat31Writer::Aedat31Writer(const std::filesystem::path& path, const RecordingHead& head)
@@ -104,7 +94,7 @@ void Aedat31Writer::end_packet() {
 
 void Aedat31Writer::write(const RecordingPart& part) {
   check_.check(part);
-  write_header(first_time(part));
+  write_header(part.first_time());
   for (const Trigger& trigger : part.triggers) {
     if (trigger.type == kTimestampWrap) {  // says what the packets' headers do
       ++not_carried_.triggers;

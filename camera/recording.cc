@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
@@ -41,6 +42,15 @@ void RecordingPart::clear() {
 
 bool RecordingPart::empty() const {
   return events.empty() && frames.empty() && imu.empty() && triggers.empty();
+}
+
+core::Time RecordingPart::first_time() const {
+  core::Time first = core::Time::max();
+  if (!events.empty()) first = std::min(first, events.front().t);
+  if (!frames.empty()) first = std::min(first, frames.front().frame_begin);
+  if (!imu.empty()) first = std::min(first, imu.front().t);
+  if (!triggers.empty()) first = std::min(first, triggers.front().t);
+  return empty() ? core::Time{} : first;
 }
 
 std::unique_ptr<RecordingReader> open_recording(const std::filesystem::path& path,

@@ -49,6 +49,8 @@ struct RecordingPart {
 
   void clear();
   bool empty() const;
+  /// The earliest time of any list; 0 where all are empty.
+  core::Time first_time() const;
 };
 
 /// What could not be used as it stood; reading went on.

@@ -46,16 +46,6 @@ core::Time middle_of(const camera::RecordedFrame& frame) {
   return frame.exposure_begin + (frame.exposure_end - frame.exposure_begin) / 2;
 }
 
-/// The earliest time of any list; 0 where all are empty.
-core::Time first_time(const camera::RecordingPart& part) {
-  core::Time first = core::Time::max();
-  if (!part.events.empty()) first = std::min(first, part.events.front().t);
-  if (!part.frames.empty()) first = std::min(first, part.frames.front().frame_begin);
-  if (!part.imu.empty()) first = std::min(first, part.imu.front().t);
-  if (!part.triggers.empty()) first = std::min(first, part.triggers.front().t);
-  return first == core::Time::max() ? core::Time{} : first;
-}
-
 }  // namespace
 
 LogRecordingWriter::LogRecordingWriter(const std::filesystem::path& path,
@@ -69,7 +59,7 @@ void LogRecordingWriter::write_head(core::Time t) {
 
 void LogRecordingWriter::write(const camera::RecordingPart& part) {
   check_.check(part);
-  write_head(first_time(part));
+  write_head(part.first_time());
   append(waiting_.events, part.events);
   append(waiting_.frames, part.frames);
   append(waiting_.imu, part.imu);
