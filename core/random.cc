@@ -29,13 +29,10 @@ Random random_stream(std::uint64_t seed, std::string_view name) {
 
 double uniform01(Random& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
-double normal(Random& random) { return normal_pair(random)[0]; }
-
-std::array<double, 2> normal_pair(Random& random) {
+double normal(Random& random) {
   const double u = 1.0 - uniform01(random);  // (0, 1]: the logarithm stays finite
   const double radius = std::sqrt(-2.0 * std::log(u));
-  const double angle = 2.0 * std::numbers::pi * uniform01(random);
-  return {radius * std::cos(angle), radius * std::sin(angle)};
+  return radius * std::cos(2.0 * std::numbers::pi * uniform01(random));
 }
 
 double exponential(Random& random) { return -std::log(1.0 - uniform01(random)); }

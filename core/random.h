@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <random>
 #include <string_view>
@@ -19,10 +18,6 @@ double uniform01(Random& random);
 
 /// Standard normal (Box-Muller), free of the C++ library's own choices.
 double normal(Random& random);
-
-/// Two independent ones for little more than the price of one; the first is what
-/// normal() would have given.
-std::array<double, 2> normal_pair(Random& random);
 
 /// Exponential with mean 1, free of the C++ library's own choices.
 double exponential(Random& random);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 #include "esi/memory_cell.h"
 
@@ -13,14 +14,16 @@ namespace nightjar::esi {
 template <void (*kTake)(const PackedEvent&, MemoryCell*)>
 [[gnu::always_inline]] inline void integrate_blocks(EventRun& events, MemoryCell* cells) {
   constexpr std::size_t kBlock = 128, kAhead = 24;
-  const auto* bytes = reinterpret_cast<const char*>(cells);
+  const auto first = reinterpret_cast<std::uintptr_t>(cells);
   EventRun run = events;
   for (auto block = run.next(kBlock); !block.empty(); block = run.next(kBlock)) {
-    // Perhaps not checked yet, but to fetch from where nothing is does no harm.
+    // Perhaps not checked yet: as a number an address may lie anywhere, and to fetch from where
+    // nothing is does no harm.
     const PackedEvent* ahead = block.data() + std::min(kAhead, run.rest().size());
     for (std::size_t i = 0; i < block.size(); ++i) {
       // Either half of the cell will do, which saves taking the polarity off.
-      __builtin_prefetch(bytes + sizeof(MemoryCell) / 2 * ahead[i].pixel_on, 1);
+      const std::uintptr_t half = first + sizeof(MemoryCell) / 2 * ahead[i].pixel_on;
+      __builtin_prefetch(reinterpret_cast<const void*>(half), 1);
       kTake(block[i], cells);
     }
   }

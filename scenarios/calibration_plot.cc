@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "scenarios/gnuplot.h"
 
@@ -14,8 +15,22 @@ constexpr const char* kBlue = "#0072B2";  // of Okabe and Ito's palette
 constexpr const char* kRed = "#D55E00";
 constexpr int kGridSteps = 16;  // across the width, where the lens is shown
 
+/// A script that grows line by line.
+class Script {
+ public:
+  template <class... Args>
+  void line(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+    text_.push_back('\n');
+  }
+  std::string text() const { return fmt::to_string(text_); }
+
+ private:
+  fmt::memory_buffer text_;
+};
+
 /// x, y, dx, dy of every corner.
-void write_corners(GnuplotScript& script, const Calibration& calibration) {
+void write_corners(Script& script, const Calibration& calibration) {
   script.line("$corners << EOD");
   for (const CalibratedView& view : calibration.views)
     for (std::size_t i = 0; i < view.corner_px.size(); ++i)
@@ -24,7 +39,7 @@ void write_corners(GnuplotScript& script, const Calibration& calibration) {
   script.line("EOD");
 }
 
-void write_views(GnuplotScript& script, const Calibration& calibration) {
+void write_views(Script& script, const Calibration& calibration) {
   script.line("$views << EOD");
   for (std::size_t i = 0; i < calibration.views.size(); ++i)
     script.line("{} {:.5f}", i + 1, calibration.views[i].rms_px);
@@ -32,7 +47,7 @@ void write_views(GnuplotScript& script, const Calibration& calibration) {
 }
 
 /// x, y where a pinhole would show things and dx, dy to where this lens does; the greatest.
-double write_lens(GnuplotScript& script, const core::CameraModel& camera) {
+double write_lens(Script& script, const core::CameraModel& camera) {
   double most_px = 0;
   script.line("$lens << EOD");
   const double step_px = static_cast<double>(camera.size.width_px) / kGridSteps;
@@ -48,7 +63,7 @@ double write_lens(GnuplotScript& script, const core::CameraModel& camera) {
 }
 
 /// Axes of the sensor, y down, with some space around.
-void sensor_axes(GnuplotScript& script, core::Resolution size) {
+void sensor_axes(Script& script, core::Resolution size) {
   script.line("set size ratio -1; set xlabel 'x (px)'; set ylabel 'y (px)'");
   script.line("set xrange [{}:{}]; set yrange [{}:{}]", -0.05 * size.width_px, 1.05 * size.width_px,
               1.05 * size.height_px, -0.05 * size.height_px);
@@ -66,7 +81,7 @@ double enlargement(const Calibration& calibration) {
 }
 
 /// Tints the cells of the picture in which no corner lies.
-void mark_empty_cells(GnuplotScript& script, const Calibration& calibration) {
+void mark_empty_cells(Script& script, const Calibration& calibration) {
   const double width_px = static_cast<double>(calibration.camera.size.width_px) / kCellColumns;
   const double height_px = static_cast<double>(calibration.camera.size.height_px) / kCellRows;
   const auto cells = calibration.cells();
@@ -78,7 +93,7 @@ void mark_empty_cells(GnuplotScript& script, const Calibration& calibration) {
   }
 }
 
-void plot_corners(GnuplotScript& script, const Calibration& calibration) {
+void plot_corners(Script& script, const Calibration& calibration) {
   const double times = enlargement(calibration);
   script.line("set title 'Corners: in {:.0f} % of the cells (tinted: none); residuals {:g} times'",
               100 * calibration.covered(), times);
@@ -90,7 +105,7 @@ void plot_corners(GnuplotScript& script, const Calibration& calibration) {
       kBlue, times, times, kRed);
 }
 
-void plot_residuals(GnuplotScript& script, const Calibration& calibration) {
+void plot_residuals(Script& script, const Calibration& calibration) {
   const double most_px = 4 * std::max(calibration.rms_px, 1e-6);
   script.line("set title 'Residuals, seen - projected: rms {:.3f} px'", calibration.rms_px);
   script.line("unset object; set xlabel 'dx (px)'; set ylabel 'dy (px)'");
@@ -98,7 +113,7 @@ void plot_residuals(GnuplotScript& script, const Calibration& calibration) {
   script.line("plot $corners using 3:4 with points pt 7 ps 0.4 lc rgb '{}'", kBlue);
 }
 
-void plot_views(GnuplotScript& script, const Calibration& calibration) {
+void plot_views(Script& script, const Calibration& calibration) {
   script.line("set title '{} views, {} left out: rms of each'", calibration.views.size(),
               calibration.left_out.size());
   script.line("set size noratio; set xlabel 'view'; set ylabel 'rms (px)'");
@@ -108,7 +123,7 @@ void plot_views(GnuplotScript& script, const Calibration& calibration) {
               calibration.rms_px, kRed);
 }
 
-void plot_lens(GnuplotScript& script, const Calibration& calibration, double most_px) {
+void plot_lens(Script& script, const Calibration& calibration, double most_px) {
   script.line("set title 'The lens: from a pinhole''s place to the seen one, {:.1f} px at most'",
               most_px);
   sensor_axes(script, calibration.camera.size);
@@ -122,7 +137,7 @@ void plot_lens(GnuplotScript& script, const Calibration& calibration, double mos
 
 std::string draw_png(const CalibrationReport& report) {
   const Calibration& calibration = report.calibration;
-  GnuplotScript script;
+  Script script;
   write_corners(script, calibration);
   write_views(script, calibration);
   const double most_px = write_lens(script, calibration.camera);

@@ -21,10 +21,11 @@ struct RunOptions {
 /// Flies the scenario in lock-step and leaves its results in options.out, which is
 /// cleared of an earlier run's before anything else.
 ///
-/// While the world advances by packet k + 1 the picture of packet k is searched for
-/// the tag, on a thread of its own; the setpoint that follows from it is flown from
-/// packet k + 2 on. So a real computer's latency, one packet, is part of the run, and
-/// the order of all messages is the same in every run.
+/// The picture of packet k is searched for the tag once the world has been flown to the
+/// end of packet k + 1; the setpoint that follows from it is flown from packet k + 2 on.
+/// So a real computer's latency, one packet, is part of the run, and the order of all
+/// messages is the same in every run. All this is one thread's work; another one draws
+/// (docs/decisions/0003).
 ///
 /// The run ends half a second after touchdown, with a crash, or at
 /// scenario.duration_s. Throws std::invalid_argument (ScenarioError) for bad input,

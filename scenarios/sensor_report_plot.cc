@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "scenarios/choice_text.h"
@@ -17,11 +18,25 @@ namespace {
 constexpr std::array<const char*, 3> kColours = {"#0072B2", "#D55E00", "#009E73"};
 constexpr int kBinsPerDecade = 8;
 
+/// A script that grows line by line.
+class Script {
+ public:
+  template <class... Args>
+  void line(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+    text_.push_back('\n');
+  }
+  std::string text() const { return fmt::to_string(text_); }
+
+ private:
+  fmt::memory_buffer text_;
+};
+
 constexpr double kLeastRateHz = 0.05;
 
 /// Rate and percentage of the pixels that fire so often or more, for every rate there is;
 /// before the least one all that fire at all.
-void write_rates(GnuplotScript& script, std::size_t i, const PixelActivity& activity) {
+void write_rates(Script& script, std::size_t i, const PixelActivity& activity) {
   std::map<std::uint32_t, std::uint64_t> pixels_by_events;
   for (const std::uint32_t events : activity.events.pixels()) ++pixels_by_events[events];
   const auto all = static_cast<double>(activity.events.pixels().size());
@@ -36,7 +51,7 @@ void write_rates(GnuplotScript& script, std::size_t i, const PixelActivity& acti
 }
 
 /// Left end of each bin (ms) and percentage of the intervals in it.
-void write_intervals(GnuplotScript& script, std::size_t i, const PixelActivity& activity) {
+void write_intervals(Script& script, std::size_t i, const PixelActivity& activity) {
   std::map<int, std::uint64_t> intervals_by_bin;
   for (const std::int64_t interval : activity.intervals_us) {
     const double us = std::max(1.0, static_cast<double>(interval));
@@ -55,7 +70,7 @@ void write_intervals(GnuplotScript& script, std::size_t i, const PixelActivity& 
 }
 
 /// Place on the axis and ON share (%) of all, quiet and signal pixels' events.
-void write_on_shares(GnuplotScript& script, std::size_t i, std::size_t columns,
+void write_on_shares(Script& script, std::size_t i, std::size_t columns,
                      const EventStatistics& statistics) {
   const std::array<std::optional<double>, 3> shares = {
       statistics.all.on_share, statistics.quiet.polarity.on_share, statistics.signal.on_share};
@@ -69,7 +84,7 @@ void write_on_shares(GnuplotScript& script, std::size_t i, std::size_t columns,
 }
 
 /// The rates, row by row, and the places of the hot pixels.
-void write_map(GnuplotScript& script, std::size_t i, const ReportColumn& column) {
+void write_map(Script& script, std::size_t i, const ReportColumn& column) {
   const PixelActivity& activity = column.activity;
   script.line("$map{} << EOD", i);
   for (int y = 0; y < activity.size().height_px; ++y) {
@@ -86,7 +101,7 @@ void write_map(GnuplotScript& script, std::size_t i, const ReportColumn& column)
 }
 
 /// "plot" with one curve for each column, of the blocks `name`0, `name`1, ...
-void plot_columns(GnuplotScript& script, std::size_t columns, const char* name, const char* style) {
+void plot_columns(Script& script, std::size_t columns, const char* name, const char* style) {
   std::string curves;
   for (std::size_t i = 0; i < columns; ++i)
     curves += fmt::format("{}${}{} using 1:2 with {} lw 2.5 lc rgb '{}'", i > 0 ? ", " : "", name,
@@ -94,7 +109,7 @@ void plot_columns(GnuplotScript& script, std::size_t columns, const char* name, 
   script.line("plot {}", curves);
 }
 
-void plot_rates(GnuplotScript& script, std::size_t columns) {
+void plot_rates(Script& script, std::size_t columns) {
   script.line("set title 'How often pixels fire'");
   script.line("set xlabel 'rate r of a pixel (Hz)'");
   script.line("set ylabel 'pixels that fire at r or more (%)'");
@@ -103,7 +118,7 @@ void plot_rates(GnuplotScript& script, std::size_t columns) {
   plot_columns(script, columns, "rates", "fsteps");
 }
 
-void plot_intervals(GnuplotScript& script, std::size_t columns) {
+void plot_intervals(Script& script, std::size_t columns) {
   script.line("set title 'Time between two events of a pixel, hot pixels aside'");
   script.line("set xlabel 'interval (ms)'");
   script.line("set ylabel 'intervals in a bin, {} bins a decade (%)'", kBinsPerDecade);
@@ -111,7 +126,7 @@ void plot_intervals(GnuplotScript& script, std::size_t columns) {
   plot_columns(script, columns, "intervals", "steps");
 }
 
-void plot_on_shares(GnuplotScript& script, std::size_t columns) {
+void plot_on_shares(Script& script, std::size_t columns) {
   script.line("set title 'Polarity'");
   script.line("unset xlabel; set ylabel 'ON events (%)'");
   script.line("unset logscale x; set xrange [-0.6:2.6]; set yrange [0:110]");
@@ -126,7 +141,7 @@ void plot_on_shares(GnuplotScript& script, std::size_t columns) {
   script.line("plot {}", curves);
 }
 
-void set_up_maps(GnuplotScript& script) {
+void set_up_maps(Script& script) {
   script.line("unset xtics; unset ytics; unset grid; unset ylabel");
   script.line("set size ratio -1; set logscale cb; set cbrange [0.1:1000]; set format cb '%g'");
   script.line("set cblabel 'rate of a pixel (Hz)'");
@@ -135,7 +150,7 @@ void set_up_maps(GnuplotScript& script) {
   script.line("set object 1 rectangle from graph 0,0 to graph 1,1 behind fc rgb 'black'");
 }
 
-void plot_map(GnuplotScript& script, std::size_t i, const ReportColumn& column) {
+void plot_map(Script& script, std::size_t i, const ReportColumn& column) {
   const core::Resolution size = column.activity.size();
   script.line("set title {} textcolor rgb '{}'", gnuplot_text(column.name), kColours[i]);
   script.line("set xlabel '{}x{} px, {:.3g} s; black: no event; rings: {} hot pixels'",
@@ -150,7 +165,7 @@ void plot_map(GnuplotScript& script, std::size_t i, const ReportColumn& column) 
 }
 
 /// One legend for all axes, under the heading.
-void write_legend(GnuplotScript& script, const SensorReport& report) {
+void write_legend(Script& script, const SensorReport& report) {
   const std::size_t columns = report.columns.size();
   for (std::size_t i = 0; i < columns; ++i)
     script.line("set label {} {} at screen {},0.945 center textcolor rgb '{}' font ',15'", i + 1,
@@ -168,7 +183,7 @@ std::string heading(const SensorReportConfig& config) {
 }  // namespace
 
 std::string draw_png(const SensorReport& report) {
-  GnuplotScript script;
+  Script script;
   const std::size_t columns = report.columns.size();
   for (std::size_t i = 0; i < columns; ++i) {
     const ReportColumn& column = report.columns[i];

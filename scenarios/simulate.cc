@@ -1,5 +1,7 @@
 #include "scenarios/simulate.h"
 
+#include <optional>
+
 #include "scenarios/flight_end.h"
 #include "scenarios/simulation_node.h"
 #include "scenarios/source_check.h"
@@ -13,21 +15,22 @@ void simulate(const Scenario& scenario, SourceLink& link) {
                              scenario.illuminance_lux, static_cast<std::uint64_t>(scenario.seed));
   SimulationNode world(link.inside(), simulation);
   const FlightEnd end(link.inside(), scenario.duration_s);
-  const auto handle = [&](core::Time t) {
-    world.publish();
-    link.exchange(t);
-  };
   world.take_setpoint();
   world.fly();
   while (!end.reached(simulation.world().truth())) {
     const core::Time flown = simulation.world().now();
-    link.wait_until_due(flown);
+    // While waiting anyway. In lock-step drawing rather goes on beside the next flight.
+    if (!link.lock_step()) simulation.expose_looked();
+    const std::optional<core::Time> due = link.wait_until_due(flown);
     world.take_setpoint();
     world.fly();
-    handle(flown);
+    world.publish();
+    link.exchange(flown, due);
   }
-  link.wait_until_due(simulation.world().now());
-  handle(simulation.world().now());
+  const core::Time flown = simulation.world().now();
+  const std::optional<core::Time> due = link.wait_until_due(flown);
+  world.publish();
+  link.exchange(flown, due);
 }
 
 }  // namespace nightjar::scenarios

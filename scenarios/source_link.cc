@@ -71,8 +71,8 @@ void SourceLink::wait(core::Time at_most) {
   wire_.wait(std::chrono::ceil<std::chrono::milliseconds>(std::min(at_most, kLongestWait)));
 }
 
-void SourceLink::wait_until_due(core::Time t) {
-  if (options_.lock_step) return;
+std::optional<core::Time> SourceLink::wait_until_due(core::Time t) {
+  if (options_.lock_step) return std::nullopt;
   if (!zero_) zero_ = steady_now() - t;
   const core::Time late = steady_now() - (*zero_ + t);
   if (late > kLate) {
@@ -84,6 +84,7 @@ void SourceLink::wait_until_due(core::Time t) {
     wait(*zero_ + t - now);
     take_answers(std::nullopt);
   }
+  return steady_now();
 }
 
 void SourceLink::exchange(core::Time t, std::optional<core::Time> origin) {

@@ -30,10 +30,12 @@ class SourceLink {
   /// Where the source publishes, kFromSource last the events, and hears the answers.
   msg::Bus& inside() { return inside_; }
 
+  bool lock_step() const { return options_.lock_step; }
+
   /// Free-running: waits until as much time has passed since the first call as lies between
-  /// its `t` and this one; a source that is late is not asked to catch up. In lock-step
-  /// returns at once.
-  void wait_until_due(core::Time t);
+  /// its `t` and this one, and returns when that was, by steady_now(); a source that is late is
+  /// not asked to catch up. In lock-step returns nothing at once.
+  std::optional<core::Time> wait_until_due(core::Time t);
 
   /// Sends what was published inside as the step of time `t`, which the source has had since
   /// `origin`, by steady_now(): just now unless given. In lock-step waits for the answer, and

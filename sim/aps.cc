@@ -89,16 +89,22 @@ std::optional<core::ApsFrame> ApsSensor::add(core::Time t,
   if (!last_) {
     begin_ = t;
   } else if (t >= begin_ + exposure_) {
-    expose(t, luminance_lux, false);
+    expose(t, luminance_lux);
     frame = read();
     begin_ += interval_;  // and the next exposure may have begun within this step
   }
-  expose(t, luminance_lux, true);
-  last_ = t;
+  expose_and_keep(t, luminance_lux);
   return frame;
 }
 
-void ApsSensor::expose(core::Time t, const core::Image<float>& luminance_lux, bool keep) {
+void ApsSensor::expose(core::Time t, const core::Image<float>& luminance_lux) {
+  const Weights w = weights(*last_, t, begin_, begin_ + exposure_);
+  const auto lux = luminance_lux.pixels();
+  best_aps_variant().integrate(last_lux_.data(), w.before_s, lux.data(), w.now_s,
+                               static_cast<std::uint32_t>(lux.size()), charge_lux_s_.data());
+}
+
+void ApsSensor::expose_and_keep(core::Time t, const core::Image<float>& luminance_lux) {
   constexpr std::size_t kChunk = 2048;  // what is read twice is still in the nearest cache
   const Weights w = last_ ? weights(*last_, t, begin_, begin_ + exposure_) : Weights{};
   const ApsVariant& kernel = best_aps_variant();
@@ -107,8 +113,9 @@ void ApsSensor::expose(core::Time t, const core::Image<float>& luminance_lux, bo
     const auto count = static_cast<std::uint32_t>(std::min(kChunk, lux.size() - p));
     if (w.before_s > 0 || w.now_s > 0)
       kernel.integrate(&last_lux_[p], w.before_s, &lux[p], w.now_s, count, &charge_lux_s_[p]);
-    if (keep) bad_radiance_ += kernel.take(&lux[p], count, &last_lux_[p]);
+    bad_radiance_ += kernel.take(&lux[p], count, &last_lux_[p]);
   }
+  last_ = t;
 }
 
 core::ApsFrame ApsSensor::read() {

@@ -42,9 +42,10 @@ class ApsSensor {
 
  private:
   void check(core::Time t, const core::Image<float>& luminance_lux) const;
-  /// Adds to the charge what falls into the exposure of the step to `t`; with `keep` the
-  /// luminance is then that at `last_`, and what is none is counted.
-  void expose(core::Time t, const core::Image<float>& luminance_lux, bool keep);
+  /// Adds to the charge what falls into the exposure of the step from `last_` to `t`.
+  void expose(core::Time t, const core::Image<float>& luminance_lux);
+  /// The same, and makes `t` and its light the last; counts inputs that had to be corrected.
+  void expose_and_keep(core::Time t, const core::Image<float>& luminance_lux);
   core::ApsFrame read();
 
   ApsConfig config_;

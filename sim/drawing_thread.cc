@@ -36,11 +36,14 @@ DrawingThread::~DrawingThread() {
 }
 
 View DrawingThread::blank_view() {
-  const std::lock_guard lock(mutex_);
-  return used_views_.empty() ? View(scene_) : pop(used_views_);
+  {
+    const std::lock_guard lock(mutex_);
+    if (!used_views_.empty()) return pop(used_views_);
+  }
+  return View(scene_);
 }
 
-void DrawingThread::draw(core::Time t, View view) {
+void DrawingThread::add(core::Time t, View view) {
   {
     const std::lock_guard lock(mutex_);
     jobs_.push_back({t, std::move(view)});

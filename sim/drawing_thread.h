@@ -39,7 +39,7 @@ class DrawingThread {
   /// A view to look with: one that was drawn, or a new one.
   View blank_view();
   /// To be drawn after those before.
-  void draw(core::Time t, View view);
+  void add(core::Time t, View view);
 
   /// The earliest picture that was not taken yet; waits until it is drawn. There must be one.
   /// If drawing it failed, throws why, and so for every later one.

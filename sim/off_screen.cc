@@ -20,7 +20,7 @@ OSMesaContext create_context() {
   // llvmpipe filters 8-bit textures in 8-bit arithmetic unless told otherwise, and
   // reads this before its first context.
   setenv("GALLIVM_PERF", "no_aos_sampling", 1);
-  // Draws on the calling thread: the other threads have use for the other cores, and waiting
+  // Draws on the calling thread: the rest of the loop has use for the other core, and waiting
   // for llvmpipe's own threads costs more than they gain (docs/decisions/0002). Whoever sets
   // the variable decides for himself.
   setenv("LP_NUM_THREADS", "0", 0);

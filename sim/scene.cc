@@ -50,7 +50,6 @@ Scene::Scene(const std::filesystem::path& model_file) : file_(model_file) {
     throw std::invalid_argument(fmt::format("{}: {}", model_file.string(), text));
   }
   data_.reset(mj_makeData(model_.get()));
-  moment_.reset(mj_makeData(model_.get()));
   settle();
 }
 
@@ -115,6 +114,7 @@ void Scene::note_posed() {
 }
 
 mjData* Scene::moment(double ago_s) {
+  if (!moment_) moment_.reset(mj_makeData(model_.get()));
   mju_copy(moment_->qpos, posed_qpos_.data(), model_->nq);
   mj_integratePos(model_.get(), moment_->qpos, posed_qvel_.data(), -ago_s);
   mju_copy(moment_->mocap_pos, data_->mocap_pos, 3 * model_->nmocap);
@@ -122,6 +122,7 @@ mjData* Scene::moment(double ago_s) {
   mj_kinematics(model_.get(), moment_.get());
   mj_comPos(model_.get(), moment_.get());  // lights and cameras may follow a centre of mass
   mj_camlight(model_.get(), moment_.get());
+  mj_tendon(model_.get(), moment_.get());
   return moment_.get();
 }
 

@@ -48,7 +48,8 @@ class Scene {
 
   /// Where everything was `ago_s` before the moment that the poses above are of, 0 to the time
   /// step: on the straight way that the step took it (MuJoCo's Euler and implicit integrators
-  /// move a body by its velocity at the step's end). Good for drawing; until the next call.
+  /// move a body by its velocity at the step's end; RK4, nearly so). Mocap bodies are where they
+  /// are now. Good for drawing; until the next call.
   mjData_* moment(double ago_s);
 
  private:

@@ -1,19 +1,20 @@
 #include "sim/simulated_camera.h"
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <utility>
 
 namespace nightjar::sim {
 namespace {
 
-/// Takes out the first elements, those for which `belongs`.
-template <class T, class Belongs>
-std::vector<T> take_first(std::vector<T>& all, Belongs belongs) {
-  const auto later = std::ranges::find_if_not(all, belongs);
-  std::vector<T> rest(std::make_move_iterator(later), std::make_move_iterator(all.end()));
-  all.erase(later, all.end());
-  return std::exchange(all, std::move(rest));
+/// Takes out those whose `time`, which grows from one to the next, is not after `end`.
+template <class T, class Time>
+std::vector<T> take_until(core::Time end, Time T::*time, std::vector<T>& all) {
+  const auto later = std::ranges::upper_bound(all, end, {}, time);
+  std::vector<T> taken(std::make_move_iterator(all.begin()), std::make_move_iterator(later));
+  all.erase(all.begin(), later);
+  return taken;
 }
 
 }  // namespace
@@ -31,15 +32,16 @@ void SimulatedCamera::expose(core::Time t, const core::Image<float>& luminance_l
   reading_out_([&] { readout_.step(t, requests_, events_); });
   if (auto frame = exposing_([&] { return aps_.add(t, luminance_lux); }))
     frames_.push_back(std::move(*frame));
+  exposed_ = t;
 }
 
 CameraOutput SimulatedCamera::take(core::Time end) {
+  assert(packet_begin_ <= end && end <= exposed_);
   CameraOutput output;
   output.packet = {std::exchange(packet_begin_, end), end,
-                   take_first(events_, [end](const core::Event& e) { return e.t <= end; })};
+                   take_until(end, &core::Event::t, events_)};
   filter_.filter(output.packet.events);
-  output.frames =
-      take_first(frames_, [end](const core::ApsFrame& f) { return f.exposure_end <= end; });
+  output.frames = take_until(end, &core::ApsFrame::exposure_end, frames_);
   return output;
 }
 

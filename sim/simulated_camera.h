@@ -46,6 +46,7 @@ class SimulatedCamera {
   BackgroundActivityFilter filter_;
   ApsSensor aps_;
   core::Time packet_begin_{};
+  core::Time exposed_{};  ///< The last time of expose().
   std::vector<core::Event> requests_;
   std::vector<core::Event> events_;
   std::vector<core::ApsFrame> frames_;

@@ -38,12 +38,11 @@ Simulation::Simulation(const WorldConfig& world, const CameraConfig& camera,
 void Simulation::look(core::Time t) {
   View view = drawing_thread_.blank_view();
   world_.look(t, view);
-  drawing_thread_.draw(t, std::move(view));
-  const double motion_px_s = bounding_([this] { return world_.image_motion_px_s(); });
-  const core::Time interval = render_interval(renderer_config_, motion_px_s, world_.time_step());
-  drawn_late_ += motion_px_s * core::seconds(interval) > renderer_config_.max_motion_px;
+  drawing_thread_.add(t, std::move(view));
+  drawn_late_ += motion_px_s_ * core::seconds(t - looked_) > renderer_config_.max_motion_px;
+  motion_px_s_ = bounding_([this] { return world_.image_motion_px_s(); });
   looked_ = t;
-  due_ = t + interval;
+  due_ = t + render_interval(renderer_config_, motion_px_s_, world_.time_step());
 }
 
 std::vector<core::StageTime> Simulation::stage_times() const {
@@ -84,6 +83,10 @@ SimulationStep Simulation::take() {
   step.packet = std::move(camera.packet);
   step.frames = std::move(camera.frames);
   return step;
+}
+
+void Simulation::expose_looked() {
+  while (exposed_ < looked_) expose();
 }
 
 SimulationStep Simulation::advance(const core::AttitudeSetpoint& setpoint) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "core/imu.h"
@@ -45,6 +46,10 @@ class Simulation {
   /// has been looked at since that end, looks now: flying on before taking spares this picture.
   SimulationStep take();
 
+  /// Exposes the camera to all that was looked at so far, once it is drawn: the next take() has
+  /// less to do.
+  void expose_looked();
+
   /// Flies one packet and takes it.
   SimulationStep advance(const core::AttitudeSetpoint& setpoint);
 
@@ -60,7 +65,7 @@ class Simulation {
   std::vector<core::StageTime> stage_times() const;
 
  private:
-  /// Looks at time `t`, since the physics step before, and plans when to look again.
+  /// Looks at time `t`, now or less than a physics step ago, and plans when to look again.
   void look(core::Time t);
   /// Exposes the camera to the next picture.
   void expose();
@@ -69,9 +74,10 @@ class Simulation {
   core::Time packet_interval_;
   World world_;
   SimulatedCamera camera_;
-  core::Time looked_{}, due_{};       ///< The last look and the next.
-  core::Time exposed_{-1};            ///< The last picture's.
-  std::deque<SimulationStep> flown_;  ///< Without what the camera gives.
+  core::Time looked_{}, due_{};        ///< The last look and the next.
+  double motion_px_s_ = 0;             ///< At the last look.
+  std::optional<core::Time> exposed_;  ///< The last picture's.
+  std::deque<SimulationStep> flown_;   ///< Without what the camera gives.
   std::uint64_t drawn_late_ = 0;
   core::StageTimer moving_{"step physics", "loop"};
   core::StageTimer bounding_{"bound motion", "loop"};

@@ -39,7 +39,7 @@ Summary some_run() {
       {1500ms, core::MissionPhase::search, core::MissionPhase::track, "tag \"0\" seen"}};
   s.estimates_sha256 = "abc";
   s.failed_criteria = {"false_detections = 2, wanted at most 0"};
-  s.profile = {{"draw", "world", 40s, 16000}, {"wait", "world", {}, 0}};
+  s.profile = {{"draw", "drawing", 40s, 16000}, {"wait", "loop", {}, 0}};
   return s;
 }
 
@@ -59,8 +59,8 @@ TEST(SummaryJson, HoldsEveryFigureUnderItsName) {
     "transitions": [{"time_s": 1.5, "from": "search", "to": "track", "cause": "tag \"0\" seen"}],
     "estimates_sha256": "abc", "passed": false,
     "failed_criteria": ["false_detections = 2, wanted at most 0"],
-    "profile": [{"stage": "draw", "thread": "world", "wall_s": 40.0, "calls": 16000},
-                {"stage": "wait", "thread": "world", "wall_s": 0.0, "calls": 0}]})"));
+    "profile": [{"stage": "draw", "thread": "drawing", "wall_s": 40.0, "calls": 16000},
+                {"stage": "wait", "thread": "loop", "wall_s": 0.0, "calls": 0}]})"));
 }
 
 TEST(SummaryJson, WritesNullForWhatThereIsNot) {
@@ -88,8 +88,8 @@ TEST(SummaryTable, ShowsADashForWhatThereIsNot) {
 
 TEST(ProfileTable, ShowsTotalMeanAndShareOfEachStage) {
   const std::string table = profile_table(some_run());
-  EXPECT_THAT(table, testing::ContainsRegex("world +draw +16000 +40.00 +2.500 +50.0\n"));
-  EXPECT_THAT(table, testing::ContainsRegex("world +wait +0 +0.00 +0.000 +0.0\n"));
+  EXPECT_THAT(table, testing::ContainsRegex("drawing +draw +16000 +40.00 +2.500 +50.0\n"));
+  EXPECT_THAT(table, testing::ContainsRegex("loop +wait +0 +0.00 +0.000 +0.0\n"));
 }
 
 }  // namespace

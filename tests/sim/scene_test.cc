@@ -64,18 +64,24 @@ TEST(Scene, VelocityOfAPointIsThatOfARigidBody) {
   EXPECT_LT((scene.omega_world(uav) - omega).norm(), 1e-12);
 }
 
-/// Where all geoms, and the camera, are.
+/// Where all geoms, cameras and lights are.
 std::vector<double> poses(const mjModel& model, const mjData& data) {
   std::vector<double> all(data.geom_xpos, data.geom_xpos + 3 * model.ngeom);
   all.insert(all.end(), data.geom_xmat, data.geom_xmat + 9 * model.ngeom);
   all.insert(all.end(), data.cam_xpos, data.cam_xpos + 3 * model.ncam);
+  all.insert(all.end(), data.cam_xmat, data.cam_xmat + 9 * model.ncam);
+  all.insert(all.end(), data.light_xpos, data.light_xpos + 3 * model.nlight);
+  all.insert(all.end(), data.light_xdir, data.light_xdir + 3 * model.nlight);
   return all;
 }
 
 TEST(Scene, AMomentAgoIsOnTheWayFromTheStepBefore) {
   Scene scene(test::arena());
-  for (int i = 0; i < 3; ++i) scene.data()->qvel[i] = 2;  // thrown and tumbling
-  for (int i = 3; i < 6; ++i) scene.data()->qvel[i] = 5;
+  mjtNum* v = scene.data()->qvel + scene.model()->jnt_dofadr[scene.id(mjOBJ_JOINT, "uav")];
+  for (int i = 0; i < 3; ++i) {  // thrown and tumbling
+    v[i] = 2;
+    v[i + 3] = 5;
+  }
   for (int i = 0; i < 10; ++i) scene.step();
   const mjModel& model = *scene.model();
   const std::vector<double> before = poses(model, *scene.data());

@@ -122,28 +122,41 @@ core::AttitudeSetpoint tilting(double tilt_rad) {
 }
 
 /// Packets that were each taken after the next had been flown, but for the last.
-std::vector<core::EventPacket> flown_ahead(Simulation& simulation, int packets) {
-  std::vector<core::EventPacket> taken;
+std::vector<SimulationStep> flown_ahead(Simulation& simulation, int packets) {
+  std::vector<SimulationStep> taken;
   simulation.fly(tilting(0.3));
   for (int i = 1; i < packets; ++i) {
     simulation.fly(tilting(0.3));
-    taken.push_back(simulation.take().packet);
+    taken.push_back(simulation.take());
   }
-  taken.push_back(simulation.take().packet);
+  taken.push_back(simulation.take());
   return taken;
+}
+
+void expect_complete(const SimulationStep& step, core::Time begin, core::Time end) {
+  EXPECT_EQ(step.packet.begin, begin);
+  EXPECT_EQ(step.packet.end, end);
+  EXPECT_EQ(step.truth.t, end);
+  EXPECT_EQ(step.vehicle.t, end);
+  ASSERT_EQ(step.imu.size(), static_cast<std::size_t>((end - begin) / 1ms));
+  EXPECT_EQ(step.imu.back().t, end);
+  for (const core::Event& event : step.packet.events) {
+    ASSERT_GT(event.t, begin);
+    ASSERT_LE(event.t, end);
+  }
+  for (const core::ApsFrame& frame : step.frames) {
+    EXPECT_GT(frame.exposure_end, begin);
+    EXPECT_LE(frame.exposure_end, end);
+  }
 }
 
 TEST(Simulation, FlyingAheadDrawsLessThanLookingAtTheEndOfEveryPacket) {
   const auto ahead = make(1), looking = make(1);
-  const std::vector<core::EventPacket> packets = flown_ahead(*ahead, 20);
+  const std::vector<SimulationStep> steps = flown_ahead(*ahead, 20);
   for (int i = 0; i < 20; ++i) {
     looking->advance(tilting(0.3));
-    const core::EventPacket& packet = packets[static_cast<std::size_t>(i)];
-    EXPECT_EQ(packet.begin, i * 10ms);
-    EXPECT_EQ(packet.end, (i + 1) * 10ms);
-    ASSERT_FALSE(packet.events.empty());
-    EXPECT_GT(packet.events.front().t, packet.begin);
-    EXPECT_LE(packet.events.back().t, packet.end);
+    expect_complete(steps[static_cast<std::size_t>(i)], i * 10ms, (i + 1) * 10ms);
+    EXPECT_FALSE(steps[static_cast<std::size_t>(i)].packet.events.empty());
   }
   EXPECT_LT(ahead->renders(), looking->renders());
 }
@@ -151,7 +164,35 @@ TEST(Simulation, FlyingAheadDrawsLessThanLookingAtTheEndOfEveryPacket) {
 TEST(Simulation, FlyingAheadSameSeedSameBits) {
   const auto a = make(3), b = make(3);
   const auto from_a = flown_ahead(*a, 8), from_b = flown_ahead(*b, 8);
-  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(from_a[i].events, from_b[i].events);
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(from_a[i].packet.events, from_b[i].packet.events);
+}
+
+TEST(Simulation, ExposingEarlyChangesNothing) {
+  const auto late = make(3), early = make(3);
+  late->fly(hover());
+  early->fly(hover());
+  for (int i = 0; i < 5; ++i) {
+    early->expose_looked();
+    late->fly(hover());
+    early->fly(hover());
+    EXPECT_EQ(early->take().packet.events, late->take().packet.events);
+  }
+}
+
+TEST(Simulation, PacketsMayBeShorterThanPicturesAreApart) {
+  RendererConfig rare;
+  rare.max_motion_px = 20;
+  rare.max_interval_ms = 100;
+  CameraConfig camera;
+  camera.packet_interval_ms = 1;
+  WorldConfig world;
+  world.renderer = rare;
+  Simulation simulation(world, camera, SensorConfig{}, test::arena(), 5.0, 1);
+  const std::vector<SimulationStep> steps = flown_ahead(simulation, 30);
+  for (int i = 0; i < 30; ++i)
+    expect_complete(steps[static_cast<std::size_t>(i)], i * 1ms, (i + 1) * 1ms);
+  // At most one for each packet's end, and the first.
+  EXPECT_LE(simulation.renders(), 31u);
 }
 
 TEST(RenderInterval, is_before_the_motion_is_too_much_but_a_step_at_least) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <set>
 
@@ -51,6 +52,36 @@ TEST(World, TagAndCameraLieAsTheFramesDocumentSays) {
       (truth.uav.p_world_body_m - truth.T_world_tag.translation() - Eigen::Vector3d(0, 0, 1.5))
           .norm(),
       0.0, 1e-9);
+}
+
+/// The mean difference of two pictures, in lux.
+double apart(const core::Image<float>& a, const core::Image<float>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.pixels().size(); ++i)
+    sum += std::abs(a.pixels()[i] - b.pixels()[i]);
+  return sum / static_cast<double>(a.pixels().size());
+}
+
+TEST(World, WhatWasSeenBetweenTwoStepsLiesBetweenThem) {
+  World world(standing({0, 0, 1.5}), CameraConfig{}, test::arena(), 1);
+  world.command(motors_off());
+  fly(world, 300ms);  // 3 m/s
+  View view(world.scene());
+  const auto seen_at = [&](core::Time t) {
+    core::Image<float> picture;
+    world.look(t, view);
+    world.renderer().draw(view, 5.0, picture);
+    return picture;
+  };
+  const core::Image<float> before = seen_at(world.now());
+  world.step();
+  const core::Image<float> now = seen_at(world.now());
+  const core::Image<float> half = seen_at(world.now() - world.time_step() / 2);
+  const double step = apart(before, now);
+  EXPECT_LT(apart(before, seen_at(world.now() - world.time_step())), 0.01 * step);
+  // In the middle, were pictures straight in time; they nearly are, but for outlines.
+  EXPECT_NEAR(apart(before, half), 0.5 * step, 0.15 * step);
+  EXPECT_NEAR(apart(half, now), 0.5 * step, 0.15 * step);
 }
 
 TEST(World, TheTagIsDrawnWhereTruthProjectsIt) {
