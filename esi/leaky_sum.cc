@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 #include "core/instruction_sets.h"
 #include "esi/leaky_sum_avx512.h"
@@ -56,7 +55,6 @@ template <Leak kLeak>
     case Leak::linear: return draw_leaked<Leak::linear>(c, now_us, data, count, gray);
     case Leak::power: return draw_leaked<Leak::power>(c, now_us, data, count, gray);
     case Leak::smooth_power: return draw_leaked<Leak::smooth_power>(c, now_us, data, count, gray);
-    case Leak::steep_power: return draw_leaked<Leak::steep_power>(c, now_us, data, count, gray);
     case Leak::exponential: return draw_leaked<Leak::exponential>(c, now_us, data, count, gray);
     case Leak::slope: return draw_leaked<Leak::slope>(c, now_us, data, count, gray);
   }
@@ -85,31 +83,38 @@ void draw_plain(const LeakySum& c, bool leak, std::uint32_t now_us, std::span<co
 }
 #endif
 
-std::uint32_t first_age_gone(double rate_hz) {
-  const double us = std::ceil(1e6 / rate_hz);
-  return us > kMostAge_us ? std::numeric_limits<std::uint32_t>::max()
-                          : static_cast<std::uint32_t>(us);
-}
-
 double usable_rate_hz(double rate_hz) { return rate_hz < kLeastRate_hz ? 0.0 : rate_hz; }
 
 Leak usable_leak(Leak leak, double rate_hz, double power) {
   if (leak != Leak::power) return leak;
   if (power == 1 || rate_hz == 0) return Leak::linear;
-  if (power < 1) return Leak::power;
-  return power <= 8 ? Leak::smooth_power : Leak::steep_power;
+  return power < 1 ? Leak::power : Leak::smooth_power;
+}
+
+/// The k dt at which nothing is left, or as good as nothing.
+double gone_at(Leak leak, double power) {
+  return leak == Leak::smooth_power && power > 8 ? 8 / power : 1;
+}
+
+/// 1e-6 `rate_hz`, by no more than rounding too great to give 1 from 1/`rate_hz` on.
+float rounded_per_us(double rate_hz) {
+  const double gone_us = std::ceil(1e6 / rate_hz);
+  auto rate_per_us = static_cast<float>(1e-6 * rate_hz);
+  while (gone_us <= kMostAge_us && static_cast<float>(gone_us) * rate_per_us < 1)
+    rate_per_us = std::nextafter(rate_per_us, 1.0f);
+  return rate_per_us;
 }
 
 using PowerTerms = decltype(LeakySum::power_terms);
 
-/// (1 - (1 - u)^power)/u in powers of u, interpolated at the Chebyshev nodes of the interval.
+/// (1 - (1 - unit u)^power)/u in powers of u, interpolated at the Chebyshev nodes of
+/// [0, greatest].
 template <int kTerms>
-PowerTerms power_terms_within(double least, double greatest, double power) {
+PowerTerms interpolated_terms(double greatest, double unit, double power) {
   std::array<double, kTerms> node, term;  // of Newton's form
   for (int i = 0; i < kTerms; ++i) {
-    node[i] = std::midpoint(least, greatest) +
-              0.5 * (greatest - least) * std::cos(std::numbers::pi * (i + 0.5) / kTerms);
-    term[i] = -std::expm1(power * std::log1p(-node[i])) / node[i];
+    node[i] = 0.5 * greatest * (1 + std::cos(std::numbers::pi * (i + 0.5) / kTerms));
+    term[i] = -std::expm1(power * std::log1p(-unit * node[i])) / node[i];
   }
   for (int order = 1; order < kTerms; ++order)  // divided differences
     for (int i = kTerms - 1; i >= order; --i)
@@ -122,10 +127,8 @@ PowerTerms power_terms_within(double least, double greatest, double power) {
 }
 
 PowerTerms power_terms_of(Leak leak, double power) {
-  if (leak == Leak::smooth_power) return power_terms_within<8>(0, 1, power);
-  if (leak == Leak::steep_power) return power_terms_within<8>(0, 1, power / 4);
-  if (leak == Leak::power)
-    return power_terms_within<6>(1 - std::numbers::sqrt2, 1 - std::numbers::sqrt2 / 2, power);
+  if (leak == Leak::smooth_power) return interpolated_terms<8>(1, gone_at(leak, power), power);
+  if (leak == Leak::power) return interpolated_terms<6>(0.5, 1, power);
   return {};
 }
 
@@ -133,12 +136,13 @@ PowerTerms power_terms_of(Leak leak, double power) {
 
 LeakySum::LeakySum(Leak leak_, double rate_hz, double power)
     : leak(usable_leak(leak_, usable_rate_hz(rate_hz), power)),
-      rate_per_us(static_cast<float>(1e-6 * usable_rate_hz(rate_hz))),
-      gone_us(first_age_gone(usable_rate_hz(rate_hz))),
+      rate_per_us(rounded_per_us(usable_rate_hz(rate_hz) / gone_at(leak, power))),
       power_terms(power_terms_of(leak, power)) {
   for (std::size_t i = 0; i < octave_factors.size(); ++i)
     octave_factors[i] = static_cast<float>(std::exp2(-power * static_cast<double>(1 << i)));
-  for (std::uint32_t i = 0; i < octaves.size(); ++i) octaves[i] = octave_power(*this, i);
+  constexpr std::uint32_t kHalf = 126;  // the exponent of 1/2; 1 - k dt is 2^-24 or more, or 0
+  for (std::uint32_t i = 0; i < 24; ++i) octaves[(kHalf - i) % 32] = octave_power(*this, i);
+  octaves[(kHalf + 1) % 32] = 1;
 }
 
 std::vector<LeakySumVariant> leaky_sum_variants() {

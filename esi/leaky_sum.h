@@ -20,8 +20,7 @@ struct SumCell {
 enum class Leak {
   linear,        ///< times max(1 - k dt, 0)
   power,         ///< times max(1 - k dt, 0)^b; for b < 1, beyond which there is
-  smooth_power,  ///< the same for 1 < b <= 8, where one polynomial will do
-  steep_power,   ///< the same for b > 8, as the fourth power of one with b/4
+  smooth_power,  ///< the same for b > 1, where one polynomial will do
   exponential,   ///< times 2^(-k dt)
   slope,         ///< by k dt, as far as 0
 };
@@ -31,7 +30,7 @@ enum class Leak {
 /// it is exactly 0 at dt = 0.
 struct LeakySum {
   /// `rate_hz` is k, `power` is b, at most 32, and matters to Leak::power alone, which becomes
-  /// linear, smooth_power or steep_power where k and b allow.
+  /// linear or smooth_power where k and b allow.
   LeakySum(Leak leak, double rate_hz, double power = 1);
 
   Leak leak;
@@ -40,11 +39,14 @@ struct LeakySum {
   float least = 0;              ///< At most 0.
   float greatest = 0;           ///< At least 0, above `least`.
 
+  /// k; for b > 8 it is k b/8, since (1 - 8/b)^b is below 1.1e-4. Of linear and of powers
+  /// nothing is left where this times dt is 1 or more, rounding and all from dt = 1/k on.
   float rate_per_us;
-  std::uint32_t gone_us;                  ///< Powers: the least dt at which nothing is left.
   std::array<float, 8> power_terms{};     ///< Of the polynomial, in rising powers; power: six.
   std::array<float, 5> octave_factors{};  ///< Power: 2^(-b 2^i).
-  std::array<float, 32> octaves{};        ///< Power: 2^(-b i), as the product of those.
+  /// Power: 2^(-b i), as the product of those, by the last bits of the exponent of a float
+  /// from 2^-(i + 1) to 2^-i. For 1 itself 1, for 0 none.
+  std::array<float, 32> octaves{};
 };
 
 /// What is done to cells, for one instruction set.
@@ -59,7 +61,7 @@ struct LeakySumVariant {
 };
 
 /// Those this processor can run, slowest first. All give the same bits; what is lost is
-/// within 3e-5 of itself, with a polynomial within 1.2e-3.
+/// within 3e-5 of itself, for b > 1 within 1.2e-3.
 std::vector<LeakySumVariant> leaky_sum_variants();
 
 /// The last of them.

@@ -22,11 +22,13 @@ namespace {
 /// Events taken at once: 16 floats are a register.
 constexpr std::size_t kFew = 16;
 
-/// For instructions with a mask: without one, gcc 12 warns of its own header.
+// For instructions with a mask: without one, gcc 12 warns of its own header.
 constexpr __mmask8 kAll = 0xff;
+constexpr __mmask16 kAllFew = 0xffff;
 
 using Floats [[gnu::vector_size(64)]] = float;
 using Words [[gnu::vector_size(64)]] = std::uint32_t;
+using Integers [[gnu::vector_size(64)]] = std::int32_t;
 
 [[NIGHTJAR_AVX512, gnu::always_inline]] inline Floats all_of(float x) { return x - Floats{}; }
 
@@ -82,56 +84,77 @@ using Bytes [[gnu::may_alias]] = double;
   return __builtin_shufflevector(a, b, 2, 18, 3, 19, 6, 22, 7, 23, 10, 26, 11, 27, 14, 30, 15, 31);
 }
 
-template <Leak kLeak>
-[[NIGHTJAR_AVX512, gnu::always_inline]] inline Floats losses(const LeakySum& c, Words age_us) {
-  alignas(64) std::uint32_t age[kFew];
-  alignas(64) float lost[kFew];
-  std::memcpy(age, &age_us, sizeof(age));
-  work_out<kLeak>(c, age, kFew, lost);
-  Floats all;
-  std::memcpy(&all, lost, sizeof(all));
-  return all;
-}
-
-/// The same with the octaves in registers, where the compiler would gather from memory.
-template <>
-[[NIGHTJAR_AVX512, gnu::always_inline]] inline Floats losses<Leak::power>(const LeakySum& c,
-                                                                          Words age_us) {
-  alignas(64) std::uint32_t age[kFew], octave[kFew];
-  alignas(64) float within[kFew];
-  std::memcpy(age, &age_us, sizeof(age));
-#pragma GCC ivdep
-#pragma GCC unroll 1
-  for (std::size_t i = 0; i < kFew; ++i) {
-    const PowerParts parts = power_parts(c, age[i]);
-    octave[i] = parts.octave;
-    within[i] = parts.lost;
+/// A LeakySum in registers, each constant in all lanes: of scalars, compilers would make such
+/// registers anew for every few events.
+struct Constants {
+  [[NIGHTJAR_AVX512, gnu::always_inline]] explicit Constants(const LeakySum& c)
+      : rate_per_us(all_of(c.rate_per_us)),
+        octaves{_mm512_loadu_ps(c.octaves.data()), _mm512_loadu_ps(c.octaves.data() + kFew)},
+        step{_mm512_set1_ps(c.step[0]), _mm512_set1_ps(c.step[1])},
+        least(all_of(c.least)),
+        greatest(all_of(c.greatest)) {
+    for (int i = 0; i < 8; ++i) power_terms[i] = all_of(c.power_terms[i]);
   }
-  Floats lost;
-  std::memcpy(&lost, within, sizeof(lost));
-  const auto octaves = _mm512_load_si512(octave);
-  const auto low = _mm512_loadu_ps(c.octaves.data());
-  const auto high = _mm512_loadu_ps(c.octaves.data() + kFew);
-  const auto power = reinterpret_cast<Floats>(_mm512_permutex2var_ps(low, octaves, high));
-  lost = (1.0f - power) + power * lost;
-  return age_us >= c.gone_us ? all_of(1.0f) : lost;
+
+  Floats rate_per_us;
+  Floats power_terms[8];
+  __m512 octaves[2];
+  __m512 step[2];
+  Floats least, greatest;
+};
+
+/// loss_ratio() with the same bits.
+template <int kTerms>
+[[NIGHTJAR_AVX512, gnu::always_inline]] inline Floats loss_ratios(const Constants& c, Floats u) {
+  const Floats u2 = u * u;
+  const auto& a = c.power_terms;
+  Floats high = a[4] + a[5] * u;
+  if constexpr (kTerms == 8) high += u2 * (a[6] + a[7] * u);
+  return (a[0] + a[1] * u) + u2 * ((a[2] + a[3] * u) + u2 * high);
 }
 
-/// Whether all is lost wherever these events are, as mostly where k is large: then there is
-/// nothing to work out.
+/// power_loss() with the same bits, and for u = 1 all.
+[[NIGHTJAR_AVX512, gnu::always_inline]] inline Floats power_losses(const Constants& c, Floats u) {
+  const Floats left = 1.0f - u;
+  const auto exponent = reinterpret_cast<__m512i>(reinterpret_cast<Words>(left) >> 23);
+  const auto power =
+      reinterpret_cast<Floats>(_mm512_permutex2var_ps(c.octaves[0], exponent, c.octaves[1]));
+  const auto mantissa = reinterpret_cast<Floats>(_mm512_maskz_getmant_ps(
+      kAllFew, reinterpret_cast<__m512>(left), _MM_MANT_NORM_p5_1, _MM_MANT_SIGN_src));
+  const Floats v = u <= 0.5f ? u : 1.0f - mantissa;
+  return (1.0f - power) + (power * v) * loss_ratios<6>(c, v);
+}
+
+/// exp2_loss() of each.
+[[NIGHTJAR_AVX512, gnu::always_inline]] inline Floats exp2_losses(Floats x) {
+  alignas(64) float each[kFew];
+  std::memcpy(each, &x, sizeof(each));
+#pragma GCC unroll 1  // is to become vectors
+  for (float& value : each) value = exp2_loss(value);
+  std::memcpy(&x, each, sizeof(x));
+  return x;
+}
+
+/// loss() for sixteen ages.
 template <Leak kLeak>
-[[NIGHTJAR_AVX512, gnu::always_inline]] inline bool all_gone(const LeakySum& c, Words age_us) {
-  if constexpr (kLeak == Leak::linear || kLeak == Leak::exponential || kLeak == Leak::slope)
-    return false;
-  const auto gone_us = _mm512_set1_epi32(static_cast<int>(c.gone_us));
-  return _mm512_cmplt_epu32_mask(reinterpret_cast<__m512i>(age_us), gone_us) == 0;
+[[NIGHTJAR_AVX512, gnu::always_inline]] inline Floats losses(const Constants& c, Words age_us) {
+  const Floats u =
+      __builtin_convertvector(reinterpret_cast<Integers>(age_us), Floats) * c.rate_per_us;
+  if constexpr (kLeak == Leak::slope) return u;
+  if constexpr (kLeak == Leak::exponential) return exp2_losses(-u);
+  if constexpr (kLeak == Leak::smooth_power)
+    return u < 1.0f ? u * loss_ratios<8>(c, u) : all_of(1.0f);
+  const auto at_most_1 = reinterpret_cast<Floats>(
+      _mm512_maskz_min_ps(kAllFew, reinterpret_cast<__m512>(u), _mm512_set1_ps(1.0f)));
+  return kLeak == Leak::power ? power_losses(c, at_most_1) : at_most_1;
 }
 
 /// add_event() for sixteen different pixels.
 template <Leak kLeak, bool kLeakFirst>
-[[NIGHTJAR_AVX512, gnu::always_inline]] inline Floats added(const LeakySum& c, Words pixel_on,
+[[NIGHTJAR_AVX512, gnu::always_inline]] inline Floats added(const Constants& c, Words pixel_on,
                                                             Floats lost, Floats sum) {
-  const Floats step = (pixel_on & 1u) != 0 ? all_of(c.step[1]) : all_of(c.step[0]);
+  const auto on = _mm512_movepi32_mask(reinterpret_cast<__m512i>(pixel_on << 31));
+  const auto step = reinterpret_cast<Floats>(_mm512_mask_blend_ps(on, c.step[0], c.step[1]));
   if constexpr (!kLeakFirst) sum += step;
   if constexpr (kLeak == Leak::slope) {
     const Floats down = sum < lost ? sum : lost;
@@ -140,23 +163,31 @@ template <Leak kLeak, bool kLeakFirst>
     sum -= sum * lost;
   }
   if constexpr (kLeakFirst) sum += step;
-  const Floats least = all_of(c.least), greatest = all_of(c.greatest);
-  sum = sum > least ? sum : least;
-  return sum < greatest ? sum : greatest;
+  sum = sum > c.least ? sum : c.least;
+  return sum < c.greatest ? sum : c.greatest;
 }
+
+/// Sixteen events.
+struct Few {
+  [[NIGHTJAR_AVX512, gnu::always_inline]] explicit Few(const PackedEvent* events) {
+    Floats low, high;
+    std::memcpy(&low, events, sizeof(low));
+    std::memcpy(&high, events + kFew / 2, sizeof(high));
+    t_us = firsts(low, high);
+    pixel_on = seconds(low, high);
+  }
+
+  Floats t_us, pixel_on;  ///< Their bits.
+};
 
 /// What EventRun::next() sees to, for kFew events before at least one more that is in order,
 /// too.
 [[NIGHTJAR_AVX512, gnu::always_inline]] inline bool are_plain(const EventRun::Limits& limits,
-                                                              const PackedEvent* events) {
-  Floats low, high, next_low, next_high;
-  std::memcpy(&low, events, sizeof(low));
-  std::memcpy(&high, events + kFew / 2, sizeof(high));
-  std::memcpy(&next_low, events + 1, sizeof(next_low));
-  std::memcpy(&next_high, events + 1 + kFew / 2, sizeof(next_high));
-  const auto t_us = reinterpret_cast<__m512i>(firsts(low, high));
-  const auto next_us = reinterpret_cast<__m512i>(firsts(next_low, next_high));
-  const auto pixel_on = reinterpret_cast<__m512i>(seconds(low, high));
+                                                              const PackedEvent* events,
+                                                              const Few& few) {
+  const auto t_us = reinterpret_cast<__m512i>(few.t_us);
+  const auto next_us = reinterpret_cast<__m512i>(Few(events + 1).t_us);
+  const auto pixel_on = reinterpret_cast<__m512i>(few.pixel_on);
   const auto end = _mm512_set1_epi32(static_cast<int>(limits.pixel_on_end));
   const unsigned bad =
       _mm512_cmplt_epu32_mask(next_us, t_us) | _mm512_cmpge_epu32_mask(pixel_on, end);
@@ -177,38 +208,40 @@ template <Leak kLeak, bool kLeakFirst>
 }
 
 template <Leak kLeak, bool kLeakFirst>
-[[NIGHTJAR_AVX512, gnu::always_inline]] inline void take_few(const LeakySum& c,
-                                                             const LeakySum& constants,
-                                                             const PackedEvent* events,
-                                                             SumCell* cells) {
-  Floats low, high;
-  std::memcpy(&low, events, sizeof(low));
-  std::memcpy(&high, events + kFew / 2, sizeof(high));
-  const Words pixel_on = reinterpret_cast<Words>(seconds(low, high));
-  const auto same = _mm512_conflict_epi32(reinterpret_cast<__m512i>(pixel_on >> 1));
-  if (_mm512_test_epi32_mask(same, same) != 0) [[unlikely]]
-    return take_in_turn<kLeak, kLeakFirst>(constants, events, kFew, cells);
-  const Floats t_us = firsts(low, high);
+[[NIGHTJAR_AVX512, gnu::always_inline]] inline void put_few(const Constants& c,
+                                                            const PackedEvent* events,
+                                                            const Few& few, SumCell* cells) {
+  const Words pixel_on = reinterpret_cast<Words>(few.pixel_on);
   const Floats low_cells = eight_cells(events, cells);
   const Floats high_cells = eight_cells(events + kFew / 2, cells);
   const Words age_us =
-      reinterpret_cast<Words>(t_us) - reinterpret_cast<Words>(seconds(low_cells, high_cells));
-  const Floats lost = all_gone<kLeak>(c, age_us) ? all_of(1.0f) : losses<kLeak>(c, age_us);
-  const Floats sum = added<kLeak, kLeakFirst>(c, pixel_on, lost, firsts(low_cells, high_cells));
-  put_eight(first_pairs(sum, t_us), events, cells);
-  put_eight(second_pairs(sum, t_us), events + kFew / 2, cells);
+      reinterpret_cast<Words>(few.t_us) - reinterpret_cast<Words>(seconds(low_cells, high_cells));
+  const Floats lost = losses<kLeak>(c, age_us);
+  const Floats now = added<kLeak, kLeakFirst>(c, pixel_on, lost, firsts(low_cells, high_cells));
+  put_eight(first_pairs(now, few.t_us), events, cells);
+  put_eight(second_pairs(now, few.t_us), events + kFew / 2, cells);
+}
+
+[[NIGHTJAR_AVX512, gnu::always_inline]] inline bool pixels_differ(const Few& few) {
+  const Words pixel = reinterpret_cast<Words>(few.pixel_on) >> 1;
+  const auto same = _mm512_conflict_epi32(reinterpret_cast<__m512i>(pixel));
+  return _mm512_test_epi32_mask(same, same) == 0;
 }
 
 template <Leak kLeak, bool kLeakFirst>
 [[NIGHTJAR_AVX512, gnu::always_inline]] inline void take_all(const LeakySum& constants,
                                                              EventRun& events, SumCell* cells) {
-  const LeakySum c = constants;  // copies: the stores below cannot change them
+  const Constants c(constants);
   EventRun run = events;
   while (run.rest().size() > kFew) {
-    const PackedEvent* few = run.rest().data();
-    if (run.limits() && !are_plain(*run.limits(), few)) break;
+    const PackedEvent* next = run.rest().data();
+    const Few few(next);
+    if (run.limits() && !are_plain(*run.limits(), next, few)) break;
     run.take(kFew);
-    take_few<kLeak, kLeakFirst>(c, constants, few, cells);
+    if (pixels_differ(few)) [[likely]]
+      put_few<kLeak, kLeakFirst>(c, next, few, cells);
+    else
+      take_in_turn<kLeak, kLeakFirst>(constants, next, kFew, cells);
   }
   for (auto block = run.next(kLeakyBlock); !block.empty(); block = run.next(kLeakyBlock))
     take_in_turn<kLeak, kLeakFirst>(constants, block.data(), block.size(), cells);
@@ -222,7 +255,6 @@ template <bool kLeakFirst>
     case Leak::linear: return take_all<Leak::linear, kLeakFirst>(c, events, cells);
     case Leak::power: return take_all<Leak::power, kLeakFirst>(c, events, cells);
     case Leak::smooth_power: return take_all<Leak::smooth_power, kLeakFirst>(c, events, cells);
-    case Leak::steep_power: return take_all<Leak::steep_power, kLeakFirst>(c, events, cells);
     case Leak::exponential: return take_all<Leak::exponential, kLeakFirst>(c, events, cells);
     case Leak::slope: return take_all<Leak::slope, kLeakFirst>(c, events, cells);
   }

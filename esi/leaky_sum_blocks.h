@@ -45,7 +45,6 @@ template <bool kLeakFirst>
     case Leak::linear: return take_blocks<Leak::linear, kLeakFirst>(c, events, cells);
     case Leak::power: return take_blocks<Leak::power, kLeakFirst>(c, events, cells);
     case Leak::smooth_power: return take_blocks<Leak::smooth_power, kLeakFirst>(c, events, cells);
-    case Leak::steep_power: return take_blocks<Leak::steep_power, kLeakFirst>(c, events, cells);
     case Leak::exponential: return take_blocks<Leak::exponential, kLeakFirst>(c, events, cells);
     case Leak::slope: return take_blocks<Leak::slope, kLeakFirst>(c, events, cells);
   }

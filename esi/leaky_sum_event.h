@@ -16,7 +16,7 @@ namespace nightjar::esi {
 inline constexpr std::array<float, 4> kLossExp2 = {0.69313686f, 0.24023252f, 0.05583729f,
                                                    0.00961811f};
 
-/// k dt.
+/// k dt, of powers the share of the dt after which nothing is left.
 [[gnu::always_inline]] inline float spent(const LeakySum& c, std::uint32_t age_us) {
   return static_cast<float>(static_cast<std::int32_t>(age_us)) * c.rate_per_us;
 }
@@ -35,39 +35,17 @@ inline constexpr std::array<float, 4> kLossExp2 = {0.69313686f, 0.24023252f, 0.0
   return (1.0f - power) - power * growth;
 }
 
-/// u (1 - (1 - u)^p)/u by its polynomial, of 6 or of 8 terms.
+/// (1 - (1 - u)^p)/u by its polynomial, of 6 or of 8 terms.
 template <int kTerms>
-[[gnu::always_inline]] inline float smooth_loss(const LeakySum& c, float u) {
+[[gnu::always_inline]] inline float loss_ratio(const LeakySum& c, float u) {
   const float u2 = u * u;
   const auto& a = c.power_terms;  // in pairs: a shorter chain than Horner's
   float high = a[4] + a[5] * u;
   if constexpr (kTerms == 8) high += u2 * (a[6] + a[7] * u);
-  return u * ((a[0] + a[1] * u) + u2 * ((a[2] + a[3] * u) + u2 * high));
+  return (a[0] + a[1] * u) + u2 * ((a[2] + a[3] * u) + u2 * high);
 }
 
-/// What is lost of what is left after a loss, when as much is lost again.
-[[gnu::always_inline]] inline float twice(float lost) { return lost + lost * (1.0f - lost); }
-
-/// 1 - k dt as 2^-octave (1 - v) with 1 - v in [sqrt(1/2), sqrt(2)), and what the power loses
-/// by 1 - v.
-struct PowerParts {
-  std::uint32_t octave;
-  float lost;
-};
-[[gnu::always_inline]] inline PowerParts power_parts(const LeakySum& c, std::uint32_t age_us) {
-  const float u = spent(c, age_us);
-  constexpr float kLeastLeft = 0x1p-24f;  // 1 - u may have been rounded to 0
-  const float left = select(1.0f - u > kLeastLeft, 1.0f - u, kLeastLeft);
-  constexpr std::uint32_t kSqrtHalf = 0x3f3504f3;
-  const std::uint32_t bits = std::bit_cast<std::uint32_t>(left) - kSqrtHalf;
-  const std::uint32_t octave =
-      0u - static_cast<std::uint32_t>(static_cast<std::int32_t>(bits) >> 23);
-  const float mantissa = std::bit_cast<float>((bits & 0x007fffffu) + kSqrtHalf);
-  const float v = select(octave == 0, u, 1.0f - mantissa);  // u is the finer of the two
-  return {octave, smooth_loss<6>(c, v)};
-}
-
-/// LeakySum::octaves[octave], without a table: a vector of lookups is slow.
+/// 2^(-b octave), without a table: a vector of lookups is slow.
 [[gnu::always_inline]] inline float octave_power(const LeakySum& c, std::uint32_t octave) {
   const auto& f = c.octave_factors;
   const float low = select((octave & 1u) != 0, f[0], 1.0f) * select((octave & 2u) != 0, f[1], 1.0f);
@@ -76,22 +54,24 @@ struct PowerParts {
   return low * high * select((octave & 16u) != 0, f[4], 1.0f);
 }
 
-/// 1 - max(1 - k dt, 0)^b.
-[[gnu::always_inline]] inline float power_loss(const LeakySum& c, std::uint32_t age_us) {
-  const PowerParts parts = power_parts(c, age_us);
-  const float power = octave_power(c, parts.octave);
-  return select(age_us >= c.gone_us, 1.0f, (1.0f - power) + power * parts.lost);
+/// 1 - (1 - u)^b for b < 1 and u < 1.
+[[gnu::always_inline]] inline float power_loss(const LeakySum& c, float u) {
+  // 1 - u is 2^-octave (1 - v) with 1 - v in [1/2, 1).
+  constexpr float kMostLeft = 0x1.fffffep-1f;  // 1 would have an octave of its own
+  const float left = select(1.0f - u < kMostLeft, 1.0f - u, kMostLeft);
+  const std::uint32_t bits = std::bit_cast<std::uint32_t>(left);
+  const float mantissa = std::bit_cast<float>((bits & 0x007fffffu) | 0x3f000000u);
+  const float v = select(u <= 0.5f, u, 1.0f - mantissa);  // u is the finer of the two
+  const float power = octave_power(c, 126u - (bits >> 23));
+  return (1.0f - power) + (power * v) * loss_ratio<6>(c, v);
 }
 
 /// What is lost of a sum: a share, but an amount for Leak::slope.
 template <Leak kLeak>
 [[gnu::always_inline]] inline float loss(const LeakySum& c, std::uint32_t age_us) {
-  if constexpr (kLeak == Leak::power) return power_loss(c, age_us);
   const float u = spent(c, age_us);
-  if constexpr (kLeak == Leak::smooth_power)
-    return select(age_us >= c.gone_us, 1.0f, smooth_loss<8>(c, u));
-  if constexpr (kLeak == Leak::steep_power)
-    return select(age_us >= c.gone_us, 1.0f, twice(twice(smooth_loss<8>(c, u))));
+  if constexpr (kLeak == Leak::power) return select(u < 1.0f, power_loss(c, u), 1.0f);
+  if constexpr (kLeak == Leak::smooth_power) return select(u < 1.0f, u * loss_ratio<8>(c, u), 1.0f);
   if constexpr (kLeak == Leak::exponential) return exp2_loss(-u);
   if constexpr (kLeak == Leak::linear) return u < 1.0f ? u : 1.0f;
   return u;

@@ -84,7 +84,7 @@ std::vector<MemoryVariant> memory_variants() {
 #if defined(__x86_64__)
   const core::InstructionSets sets = core::instruction_sets();
   if (sets.avx2) variants.push_back({"avx2", integrate_avx2, features_avx2});
-  if (sets.avx512) variants.push_back({"avx512", integrate_avx512, features_avx2});
+  if (sets.avx512) variants.push_back({"avx512", integrate_avx512, features_avx512});
 #endif
   return variants;
 }

@@ -7,6 +7,7 @@
 
 #include "core/config_check.h"
 #include "scenarios/consistency.h"
+#include "scenarios/corner_inset.h"
 #include "scenarios/intrinsics.h"
 #include "scenarios/mount.h"
 #include "scenarios/moved_name.h"
@@ -61,6 +62,19 @@ std::string pixel_comment(const Scenario& scenario) {
   return comment;
 }
 
+void read(const YamlNode& root, const std::string& file, Scenario& scenario) {
+  YamlReader reader(root, file, "");
+  scenario.visit(reader);
+  reader.finish();
+}
+
+// What suits the method, for a file that does not say it itself.
+Scenario defaults_for(esi::Method method) {
+  Scenario scenario;
+  scenario.tracker.measurement.corner_inset_px = corner_inset_px(method);
+  return scenario;
+}
+
 }  // namespace
 
 Scenario load(const fs::path& path) { return parse(read_scenario_text(path), path); }
@@ -69,9 +83,9 @@ Scenario parse(const std::string& text, const fs::path& path) {
   const std::string file = shown_file(path.string());
   const YamlNode root = parse_yaml(text, file);
   Scenario scenario;
-  YamlReader reader(root, file, "");
-  scenario.visit(reader);
-  reader.finish();
+  read(root, file, scenario);  // for the method
+  scenario = defaults_for(scenario.reconstructor.method);
+  read(root, file, scenario);
   const fs::path model = path.parent_path() / scenario.model;
   if (needs_model(scenario) && (scenario.model.empty() || !is_file(model)))
     throw ScenarioError(place_of("model", root, file) + ": " + no_model(scenario.model));

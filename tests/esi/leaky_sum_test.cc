@@ -26,8 +26,8 @@ std::vector<LeakySum> all_kinds() {
     for (const LeakySum& sum :
          {make(Leak::linear, 1.0), make(Leak::linear, 0), make(Leak::power, 1.0, 2.5),
           make(Leak::power, 0.5, 0.5), make(Leak::power, 20, 0.5), make(Leak::power, 0.7, 0.01),
-          make(Leak::power, 1000, 20), make(Leak::power, 0, 3), make(Leak::exponential, 1.4),
-          make(Leak::slope, 0.5)}) {
+          make(Leak::power, 1000, 20), make(Leak::power, 3, 12), make(Leak::power, 0, 3),
+          make(Leak::exponential, 1.4), make(Leak::slope, 0.5)}) {
       kinds.push_back(sum);
       kinds.back().leak_first = leak_first;
     }
@@ -83,6 +83,24 @@ TEST_P(LeakySumOfRepeats, EveryInstructionSetAndEveryCutGivesTheSameBits) {
 
 INSTANTIATE_TEST_SUITE_P(AllAndFew, LeakySumOfRepeats, testing::Values(0.0, 0.03, 0.5));
 
+TEST(LeakySum, EveryInstructionSetLosesTheSameAfterEveryTime) {
+  constexpr std::uint32_t kTimes = 100'100;  // up to 1/k and beyond
+  std::vector<PackedEvent> all;
+  for (std::uint32_t i = 0; i < kTimes; ++i) all.push_back({i, 2 * i});
+  const auto variants = leaky_sum_variants();
+  for (const double power : {0.01, 0.3, 1.0, 1.7, 12.0}) {
+    LeakySum sum = make(Leak::power, 10, power);
+    sum.step = {0, 0};
+    std::vector<SumCell> expected(kTimes, SumCell{1, 0});
+    integrate(variants.front(), sum, all, expected.data());
+    for (const LeakySumVariant& variant : variants) {
+      std::vector<SumCell> cells(kTimes, SumCell{1, 0});
+      integrate(variant, sum, all, cells.data());
+      EXPECT_TRUE(same_bits(cells, expected)) << variant.name << ' ' << power;
+    }
+  }
+}
+
 TEST(LeakySum, EveryInstructionSetDrawsTheSame) {
   const auto all = events(20000, /*seed=*/2);
   const auto variants = leaky_sum_variants();
@@ -122,7 +140,7 @@ double lost(LeakySum sum, std::uint32_t age_us) {
 TEST(LeakySum, LosesWhatTheFormulaSays) {
   for (const double rate_hz : {1e-5, 0.01, 0.5, 1.0, 3.0, 100.0, 1000.0})
     for (const double power :
-         {0.01, 0.49, 0.5, 0.6, 0.99, 1.0, 1.01, 1.2, 1.8, 2.0, 2.5, 8.0, 8.1, 20.0})
+         {0.01, 0.49, 0.5, 0.6, 0.99, 1.0, 1.01, 1.2, 1.8, 2.0, 2.5, 8.0, 8.1, 20.0, 32.0})
       for (double age_us = 0; age_us < 2147483647; age_us = 1.37 * age_us + 1) {
         const auto age = static_cast<std::uint32_t>(age_us);
         const double left = std::max(1 - 1e-6 * rate_hz * age, 0.0);
@@ -142,14 +160,17 @@ TEST(LeakySum, LosesWhatTheFormulaSays) {
 }
 
 TEST(LeakySum, LosesNothingAtOnceAndAllWhenItIsTime) {
-  for (const double power : {0.01, 0.5, 1.0, 2.5, 20.0})
-    for (const double rate_hz : {0.0, 1e-9, 0.3, 1.0, 1000.0}) {
+  for (const double power : {0.01, 0.5, 1.0, 2.5, 20.0}) {
+    for (const double rate_hz : {0.0, 1e-9, 0.3, 1.0, 1000.0})
+      EXPECT_EQ(lost(make(Leak::power, rate_hz, power), 0), 0.0);
+    for (double rate_hz = 0.001; rate_hz < 1000; rate_hz *= 1.37) {
       const LeakySum sum = make(Leak::power, rate_hz, power);
-      EXPECT_EQ(lost(sum, 0), 0.0);
-      if (rate_hz < 0.1) continue;
-      EXPECT_EQ(lost(sum, static_cast<std::uint32_t>(std::ceil(1e6 / rate_hz))), 1.0);
-      EXPECT_LT(lost(sum, static_cast<std::uint32_t>(std::ceil(1e6 / rate_hz)) - 1), 1.0 + 1e-7);
+      const auto gone_us = static_cast<std::uint32_t>(std::ceil(1e6 / rate_hz));
+      EXPECT_EQ(lost(sum, gone_us), 1.0) << rate_hz;
+      EXPECT_EQ(lost(sum, 2 * gone_us), 1.0) << rate_hz;
+      EXPECT_LT(lost(sum, gone_us - 1), 1.0 + 1e-7) << rate_hz;
     }
+  }
 }
 
 TEST(LeakySum, AManyTimesRepeatedShortIntervalLosesWhatALongOneOfAnExponentialDoes) {

@@ -3,66 +3,114 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
-
-#include "tests/support/scratch_folder.h"
 
 namespace nightjar::scenarios {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
-/// A square in the middle turns bright, so a good picture is that square.
-class MethodScoresTest : public testing::Test {
- protected:
-  MethodScoresTest() {
-    std::ofstream text(folder_ / "events.txt");
-    for (int i = 0; i < 3; ++i)
-      for (int y = 8; y < 16; ++y)
-        for (int x = 8; x < 16; ++x) {
-          text << "0.0" << i + 1 << ' ' << x << ' ' << y << " 1\n";
-          square_(x, y) = 200;
-        }
-  }
+using Picture = core::Image<std::uint8_t>;
 
-  test::ScratchFolder folder_;
-  core::Image<std::uint8_t> square_{{24, 24}, 50};
-};
-
-TEST_F(MethodScoresTest, scores_a_right_picture_high_and_a_wrong_one_low) {
-  MethodScoresOptions options;
-  options.methods = {esi::Method::esi};
-  const auto right = score_methods(folder_ / "events.txt", square_, options);
-  ASSERT_EQ(right.size(), 1u);
-  EXPECT_EQ(right[0].method, "esi");
-  EXPECT_NEAR(right[0].quality->ssim, 1, 1e-9);  // two levels: the fit is exact
-  core::Image<std::uint8_t> stripes({24, 24});
-  for (int x = 0; x < 24; x += 3)
-    for (int y = 0; y < 24; ++y) stripes(x, y) = 255;
-  EXPECT_LT(score_methods(folder_ / "events.txt", stripes, options)[0].quality->ssim, 0.3);
+/// Grey, with the left half at `left`.
+Picture halves(std::uint8_t left, std::uint8_t right) {
+  Picture picture({12, 12}, right);
+  for (int y = 0; y < 12; ++y)
+    for (int x = 0; x < 6; ++x) picture(x, y) = left;
+  return picture;
 }
 
-TEST_F(MethodScoresTest, says_which_methods_were_skipped_and_why) {
-  MethodScoresOptions options;
-  options.methods = {esi::Method::firenet, esi::Method::edi, esi::Method::esi};
-  const auto scores = score_methods(folder_ / "events.txt", square_, options);
-  EXPECT_EQ(scores[0].skipped, "no weights: reconstructor.firenet.weights");
-  EXPECT_EQ(scores[1].skipped, "needs frames, the recording holds none");
-  EXPECT_FALSE(scores[0].quality || scores[1].quality);
-  EXPECT_THAT(to_table(scores), HasSubstr("skipped: no weights"));
+Score number(double value) {
+  return {{.gain = value,
+           .offset_levels = -value,
+           .mse = 10 * value,
+           .psnr_db = 20 * value,
+           .ssim = value / 10},
+          value / 5};
+}
+
+TEST(MethodScores, the_share_explained_is_of_the_references_variance) {
+  EXPECT_DOUBLE_EQ(variance(halves(10, 30)), 100);
+  EXPECT_DOUBLE_EQ(variance(halves(9, 9)), 0);
+  EXPECT_NEAR(score(halves(7, 8), halves(10, 30)).explained, 1, 1e-12);  // rounding of the fit
+  EXPECT_DOUBLE_EQ(score(halves(8, 7), halves(10, 30)).explained, 0);    // the negative
+  EXPECT_DOUBLE_EQ(score(halves(1, 2), halves(9, 9)).explained, 0);      // nothing to explain
+  // Of levels 0, 0, 20, 20 by columns a picture 0, 20, 20, 20 explains a third: r^2 of both.
+  Picture reference = halves(0, 20), picture = reference;
+  for (int y = 0; y < 12; ++y)
+    for (int x = 3; x < 6; ++x) picture(x, y) = 20;
+  EXPECT_NEAR(score(picture, reference).explained, 1.0 / 3, 1e-12);  // rounding
+}
+
+TEST(MethodScores, of_several_frames_are_means) {
+  EXPECT_FALSE(mean_score({}));
+  const auto mean = mean_score({{core::Time(1), number(1)}, {core::Time(2), number(4)}});
+  ASSERT_TRUE(mean);
+  EXPECT_DOUBLE_EQ(mean->quality.gain, 2.5);
+  EXPECT_DOUBLE_EQ(mean->quality.offset_levels, -2.5);
+  EXPECT_DOUBLE_EQ(mean->quality.mse, 25);
+  EXPECT_DOUBLE_EQ(mean->quality.psnr_db, 50);
+  EXPECT_DOUBLE_EQ(mean->quality.ssim, 0.25);
+  EXPECT_DOUBLE_EQ(mean->explained, 0.5);
+}
+
+TEST(MethodScores, say_how_many_frames_were_compared_and_why_not_all) {
+  EXPECT_EQ(to_text({.compared = 1}), "1 frame compared");
+  EXPECT_EQ(to_text({.compared = 12, .too_early = 1, .exposed_too_long = 2}),
+            "12 frames compared, 3 left out: 1 too early, 2 exposed for too long");
+  EXPECT_EQ(to_text({.after_events = 4, .unfit = 5}),
+            "0 frames compared, 9 left out: 4 after the last event, 5 of part of the sensor or of "
+            "one grey level");
+}
+
+MethodScores sample() {
+  MethodScores scores;
+  scores.methods.push_back({.method = "edi",
+                            .saw_frames = true,
+                            .score = number(1),
+                            .frames = {{core::Time(42), number(1)}},
+                            .skipped = ""});
+  scores.methods.push_back({.method = "esi",
+                            .saw_frames = false,
+                            .score = number(2),
+                            .frames = {{core::Time(42), number(2)}},
+                            .skipped = ""});
+  scores.methods.emplace_back();
+  scores.methods.back().method = "e2vid";
+  scores.methods.back().skipped = "no weights";
+  return scores;
+}
+
+TEST(MethodScores, come_as_a_table) {
+  MethodScores scores = sample();
+  EXPECT_EQ(to_table(scores),
+            "method  MSE   PSNR dB  SSIM    explained  gain   made of\n"
+            "edi     10.0  20.00    0.1000  0.2000     1.000  events, frames\n"
+            "esi     20.0  40.00    0.2000  0.4000     2.000  events\n"
+            "e2vid   -     -        -       -          -      skipped: no weights\n");
+  scores.frames = FrameCount{.compared = 1, .too_early = 2};
+  EXPECT_THAT(to_table(scores), HasSubstr("\n1 frame compared, 2 left out: 2 too early\n"));
+}
+
+TEST(MethodScores, come_as_json_with_a_score_for_each_frame) {
+  MethodScores scores = sample();
+  EXPECT_THAT(to_json(scores), Not(HasSubstr("left_out")));
+  scores.frames = FrameCount{.compared = 1, .unfit = 3};
   const auto json = nlohmann::json::parse(to_json(scores));
-  EXPECT_EQ(json[1]["skipped"], "needs frames, the recording holds none");
-  EXPECT_GT(json[2]["ssim"], 0.99);
-  EXPECT_FALSE(json[2].contains("skipped"));
-}
-
-TEST_F(MethodScoresTest, refuses_a_reference_of_another_size) {
-  MethodScoresOptions options;
-  options.methods = {esi::Method::esi};
-  EXPECT_THROW(score_methods(folder_ / "events.txt", core::Image<std::uint8_t>({12, 12}), options),
-               std::invalid_argument);
+  EXPECT_EQ(json["frames"]["compared"], 1);
+  EXPECT_EQ(json["frames"]["left_out"]["unfit"], 3);
+  EXPECT_EQ(json["frames"]["left_out"]["too_early"], 0);
+  const auto& esi = json["methods"][1];
+  EXPECT_EQ(esi["method"], "esi");
+  EXPECT_EQ(esi["saw_frames"], false);
+  EXPECT_EQ(json["methods"][0]["saw_frames"], true);
+  EXPECT_EQ(esi["explained"], 0.4);
+  EXPECT_EQ(esi["frames"].size(), 1u);
+  EXPECT_EQ(esi["frames"][0]["time_us"], 42);
+  EXPECT_EQ(esi["frames"][0]["mse"], 20);
+  EXPECT_EQ(json["methods"][2]["skipped"], "no weights");
+  EXPECT_FALSE(json["methods"][2].contains("mse"));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/corner_inset.h"
 #include "scenarios/yaml_writer.h"
 
 namespace nightjar::scenarios {
@@ -119,6 +120,20 @@ TEST_F(ScenarioTest, TakesFramesAsFastAsTheWorldIsDrawn) {
   EXPECT_EQ(complaint(model + "sensor: {aps: {interval_ms: 4}}\n"), "no complaint");
   EXPECT_NE(complaint(model + "illuminance_lux: 5000\nsensor: {aps: {interval_ms: 4}}\n"),
             "no complaint");
+}
+
+TEST_F(ScenarioTest, TakesTheMethodsCornerInsetUnlessTheFileSaysIt) {
+  const auto inset_px = [&](const std::string& text) {
+    return load(write("model: models/arena.xml\n" + text)).tracker.measurement.corner_inset_px;
+  };
+  EXPECT_EQ(inset_px(""), corner_inset_px(esi::Method::esi));
+  EXPECT_EQ(inset_px("reconstructor: {method: esi_net}\n"), corner_inset_px(esi::Method::esi_net));
+  EXPECT_EQ(inset_px("tracker: {measurement: {corner_noise_px: 1}}\n"
+                     "reconstructor: {method: esi_net}\n"),
+            corner_inset_px(esi::Method::esi_net));
+  EXPECT_EQ(inset_px("reconstructor: {method: esi_net}\n"
+                     "tracker: {measurement: {corner_inset_px: 0.4}}\n"),
+            0.4);
 }
 
 TEST_F(ScenarioTest, ReadsBackWhatItSavedAnywhere) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "scenarios/gray_picture.h"
+#include "scenarios/recordings.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/program.h"
 
@@ -26,6 +27,32 @@ class QualityCommandTest : public test::ProgramTest {
         }
     scenarios::write_png(folder_ / "frame.png", picture);
   }
+
+  /// A square turns bright by 30 ms, beside a line that always was; frames of them, the third
+  /// exposed for long, 20, 100, 200 and 300 ms after the first event.
+  void write_flight() const {
+    constexpr core::Resolution kSensor{16, 16};
+    camera::RecordingPart part;
+    camera::RecordedFrame frame;
+    frame.gray = core::Image<std::uint16_t>(kSensor, 50);
+    for (const int ms : {10, 20, 400})
+      for (std::uint16_t y = 4; y < 12; ++y)
+        for (std::uint16_t x = 4; x < 12; ++x) {
+          part.events.push_back({core::Time(1000 * ms), x, y, true});
+          frame.gray(x, y) = 200;
+        }
+    for (const int ms : {30, 110, 210, 310}) {
+      const core::Time half = core::Time(ms == 210 ? 30'000 : 4'000);
+      frame.frame_begin = frame.exposure_begin = core::Time(1000 * ms) - half;
+      frame.frame_end = frame.exposure_end = core::Time(1000 * ms) + half;
+      part.frames.push_back(frame);
+    }
+    for (camera::RecordedFrame& each : part.frames)
+      for (int y = 4; y < 12; ++y) each.gray(1, y) = 200;
+    const auto writer = scenarios::create_recording(folder_ / "flight.aedat4", {kSensor, ""});
+    writer->write(part);
+    writer->finish();
+  }
 };
 
 TEST_F(QualityCommandTest, prints_a_row_for_every_method) {
@@ -36,6 +63,43 @@ TEST_F(QualityCommandTest, prints_a_row_for_every_method) {
     EXPECT_NE(out.find(name), std::string::npos) << name << out;
   EXPECT_NE(out.find("skipped: needs frames"), std::string::npos) << out;
   EXPECT_NE(out.find("skipped: no weights"), std::string::npos) << out;
+  EXPECT_EQ(out.find("compared"), std::string::npos) << out;
+}
+
+TEST_F(QualityCommandTest, compares_with_the_recordings_own_frames) {
+  write_flight();
+  ASSERT_EQ(run_program("quality flight.aedat4"), 0) << err;
+  EXPECT_EQ(err, "");
+  EXPECT_TRUE(out.starts_with("method ")) << out;
+  for (const char* name : {"\nesi ", "\nedi ", "\nfedi ", "\nesi_net "})
+    EXPECT_NE(out.find(name), std::string::npos) << name << out;
+  EXPECT_EQ(out.find("skipped: needs"), std::string::npos) << out;
+  EXPECT_TRUE(
+      out.ends_with("\n2 frames compared, 2 left out: 1 too early, 1 exposed for too "
+                    "long\n"))
+      << out;
+}
+
+TEST_F(QualityCommandTest, compares_the_frames_it_is_told_to) {
+  write_flight();
+  ASSERT_EQ(run_program("quality flight.aedat4 --method edi --from 0 --until 0.2 --max-exposure 70 "
+                        "--json"),
+            0)
+      << err;
+  const auto json = nlohmann::json::parse(out);
+  EXPECT_EQ(json["frames"]["compared"], 3);  // at 20, 100 and 200 ms
+  const auto& edi = json["methods"][0];
+  ASSERT_EQ(edi["frames"].size(), 3u);
+  EXPECT_EQ(edi["frames"][1]["time_us"], 110'000);  // the first event was at 10 ms
+  EXPECT_GT(edi["frames"][1]["explained"], 0.99);   // it had seen the same before
+  EXPECT_LT(edi["frames"][0]["explained"], 0.95);   // and here nothing but events
+  EXPECT_EQ(edi["saw_frames"], true);
+}
+
+TEST_F(QualityCommandTest, is_silent_when_told_to) {
+  write_flight();
+  ASSERT_EQ(run_program("quality flight.aedat4 --method esi --quiet"), 0) << err;
+  EXPECT_EQ(out + err, "");
 }
 
 TEST_F(QualityCommandTest, prints_json_of_the_methods_asked_for) {
@@ -43,7 +107,7 @@ TEST_F(QualityCommandTest, prints_json_of_the_methods_asked_for) {
                         "--json"),
             0)
       << err;
-  const auto json = nlohmann::json::parse(out);
+  const auto json = nlohmann::json::parse(out)["methods"];
   ASSERT_EQ(json.size(), 2u);
   EXPECT_EQ(json[0]["method"], "htac");
   EXPECT_NEAR(json[1]["ssim"], 1, 1e-9);  // two levels: the fit is exact
@@ -52,7 +116,11 @@ TEST_F(QualityCommandTest, prints_json_of_the_methods_asked_for) {
 
 TEST_F(QualityCommandTest, refuses_what_it_cannot_compare) {
   EXPECT_EQ(run_program("quality events.txt"), 2);
-  expect_one_line("--reference is required");
+  expect_one_line("events.txt: no frames to compare with; --reference PICTURE");
+  EXPECT_EQ(run_program("quality events.txt --reference frame.png --from 1"), 2);
+  expect_one_line("--reference excludes --from");
+  EXPECT_EQ(run_program("quality events.txt --max-exposure 0"), 2);
+  expect_one_line("max_exposure_ms = 0, allowed 0.001 to");
   EXPECT_EQ(run_program("quality events.txt --reference none.png"), 2);
   expect_one_line("none.png: cannot be read as a picture");
   scenarios::write_png(folder_ / "small.png", core::Image<std::uint8_t>({11, 11}));
@@ -71,8 +139,8 @@ TEST_F(QualityCommandTest, runs_firenet_on_a_real_recording) {
             0)
       << err;
   const auto json = nlohmann::json::parse(out);
-  EXPECT_GT(json[0]["ssim"], 0);
-  EXPECT_LT(json[0]["ssim"], 1);
+  EXPECT_GT(json["methods"][0]["ssim"], 0);
+  EXPECT_LT(json["methods"][0]["ssim"], 1);
 }
 
 }  // namespace

@@ -1,0 +1,12 @@
+#include "scenarios/corner_inset.h"
+
+#include "tracker/config.h"
+
+namespace nightjar::scenarios {
+
+double corner_inset_px(esi::Method method) {
+  if (method == esi::Method::esi_net) return -0.2;  // its edges are soft, on white's side most
+  return tracker::MeasurementConfig{}.corner_inset_px;
+}
+
+}  // namespace nightjar::scenarios

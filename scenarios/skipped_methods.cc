@@ -1,0 +1,28 @@
+#include "scenarios/skipped_methods.h"
+
+#include <fmt/format.h>
+
+#include "esi/make_reconstructor.h"
+#include "scenarios/choice_text.h"
+
+namespace nightjar::scenarios {
+
+std::string lacks_weights(const esi::ReconstructorConfig& config) {
+  const bool lacks = (config.method == esi::Method::firenet && config.firenet.weights.empty()) ||
+                     (config.method == esi::Method::e2vid && config.e2vid.weights.empty());
+  if (!lacks) return {};
+  return fmt::format("no weights: reconstructor.{}.weights",
+                     choice_name(config.method, esi::kMethods));
+}
+
+bool starts_from_frames(esi::Method method) {
+  return method == esi::Method::edi || method == esi::Method::fedi;
+}
+
+bool is_given_frames(const esi::ReconstructorConfig& config) {
+  if (config.method == esi::Method::complementary_filter)
+    return config.complementary_filter.use_frames;
+  return esi::uses_frames(config.method);
+}
+
+}  // namespace nightjar::scenarios

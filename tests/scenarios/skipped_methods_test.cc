@@ -1,0 +1,34 @@
+#include "scenarios/skipped_methods.h"
+
+#include <gtest/gtest.h>
+
+namespace nightjar::scenarios {
+namespace {
+
+esi::ReconstructorConfig config(esi::Method method) {
+  esi::ReconstructorConfig config;
+  config.method = method;
+  return config;
+}
+
+TEST(SkippedMethods, are_networks_without_weights) {
+  EXPECT_EQ(lacks_weights(config(esi::Method::e2vid)), "no weights: reconstructor.e2vid.weights");
+  esi::ReconstructorConfig firenet = config(esi::Method::firenet);
+  firenet.e2vid.weights = "others.onnx";
+  EXPECT_EQ(lacks_weights(firenet), "no weights: reconstructor.firenet.weights");
+  firenet.firenet.weights = "firenet.onnx";
+  EXPECT_EQ(lacks_weights(firenet), "");
+  EXPECT_EQ(lacks_weights(config(esi::Method::esi)), "");
+}
+
+TEST(SkippedMethods, can_be_told_not_to_take_frames) {
+  EXPECT_FALSE(is_given_frames(config(esi::Method::esi)));
+  EXPECT_TRUE(is_given_frames(config(esi::Method::edi)));
+  esi::ReconstructorConfig filter = config(esi::Method::complementary_filter);
+  EXPECT_TRUE(is_given_frames(filter));
+  filter.complementary_filter.use_frames = false;
+  EXPECT_FALSE(is_given_frames(filter));
+}
+
+}  // namespace
+}  // namespace nightjar::scenarios
