@@ -39,8 +39,9 @@ struct LeakySum {
   float least = 0;              ///< At most 0.
   float greatest = 0;           ///< At least 0, above `least`.
 
-  /// k; for b > 8 it is k b/8, since (1 - 8/b)^b is below 1.1e-4. Of linear and of powers
-  /// nothing is left where this times dt is 1 or more, rounding and all from dt = 1/k on.
+  /// k; for b > 8 it is k b/8: nothing is left from dt = 8/(k b) on, where the power would be
+  /// (1 - 8/b)^b, below 1.1e-4. Of linear and of powers nothing is left where this times dt is 1
+  /// or more; rounded so that for b <= 8 that is so from dt = 1/k on.
   float rate_per_us;
   std::array<float, 8> power_terms{};     ///< Of the polynomial, in rising powers; power: six.
   std::array<float, 5> octave_factors{};  ///< Power: 2^(-b 2^i).

@@ -1,5 +1,7 @@
 #include "scenarios/event_stream.h"
 
+#include <algorithm>
+
 namespace nightjar::scenarios {
 
 std::optional<core::Time> EventStream::next_time() {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <optional>
 #include <span>
 
@@ -15,10 +14,11 @@ class EventStream {
   /// `recording` has to outlive the stream.
   explicit EventStream(camera::RecordingReader& recording) : recording_(recording) {}
 
-  /// When the first event was that take_until() has not given; nothing at the end.
+  /// The time of the next event; nothing at the end.
   std::optional<core::Time> next_time();
 
-  /// Events at `t` or before, valid until the next call; none once all of those were given.
+  /// Events at `t` or before, valid until the next call of this or of next_time(); none once
+  /// all of those were given.
   std::span<const core::Event> take_until(core::Time t);
 
   /// From the first event to the last, as far as the recording's progress() tells.

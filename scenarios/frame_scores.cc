@@ -1,9 +1,11 @@
 #include "scenarios/frame_scores.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <deque>
-#include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "camera/gray_level.h"
@@ -21,7 +23,10 @@ constexpr double kMostSeconds = 1e9;
 void check(const ScoreOptions& options, const FrameChoice& choice) {
   core::check_range("fps", options.rate_hz, 0.01, 100000);
   core::check_range("from_s", choice.from_s, 0, kMostSeconds);
-  core::check_range("until_s", options.until_s.value_or(kMostSeconds), choice.from_s, kMostSeconds);
+  core::check_range("until_s", options.until_s.value_or(kMostSeconds), 0, kMostSeconds);
+  if (options.until_s && *options.until_s < choice.from_s)
+    throw std::invalid_argument(fmt::format("until_s = {}, allowed from_s (--from) = {} to {}",
+                                            *options.until_s, choice.from_s, kMostSeconds));
   core::check_range("max_exposure_ms", choice.max_exposure_ms, 0.001, 1e6);
 }
 
@@ -50,8 +55,12 @@ class FrameScoring {
   void take_events(core::Time until);
   void consider_frame(core::Time middle);
   void tell_progress() const;
+  const std::string& first_fault() const;
+  EmptyRecording empty(std::string why) const;
+  EmptyRecording nothing_compared() const;
   MethodScores result() const;
 
+  camera::RecordingReader& all_events_;
   camera::RecordingReader& frames_;
   const ScoreOptions& options_;
   const FrameChoice& choice_;
@@ -68,7 +77,12 @@ class FrameScoring {
 
 FrameScoring::FrameScoring(camera::RecordingReader& events, camera::RecordingReader& frames,
                            const ScoreOptions& options, const FrameChoice& choice)
-    : frames_(frames), options_(options), choice_(choice), size_(events.size()), events_(events) {
+    : all_events_(events),
+      frames_(frames),
+      options_(options),
+      choice_(choice),
+      size_(events.size()),
+      events_(events) {
   esi::ReconstructorConfig config = options.reconstructor;
   for (const esi::Method method : options.methods) {
     config.method = method;
@@ -78,7 +92,7 @@ FrameScoring::FrameScoring(camera::RecordingReader& events, camera::RecordingRea
 
 void FrameScoring::begin() {
   const auto first = events_.next_time();
-  if (!first) throw EmptyRecording("no events");
+  if (!first) throw empty("no events");
   begin_ = done_ = *first;
   if (options_.until_s) until_ = begin_ + core::from_seconds(*options_.until_s);
   for (ScoredMethod& method : methods_) method.begin(begin_);
@@ -129,8 +143,28 @@ void FrameScoring::tell_progress() const {
   options_.on_progress(all_s > 0 ? std::min(core::seconds(done_ - begin_) / all_s, 1.0) : 0.0);
 }
 
+/// Whichever of the two readers has come to it.
+const std::string& FrameScoring::first_fault() const {
+  return frames_.faults().any() ? frames_.faults().first : all_events_.faults().first;
+}
+
+/// A fault may be why: it goes with the message.
+EmptyRecording FrameScoring::empty(std::string why) const {
+  if (!first_fault().empty()) why += "; " + first_fault();
+  return EmptyRecording(why);
+}
+
+EmptyRecording FrameScoring::nothing_compared() const {
+  std::string why = to_text(count_);
+  if (count_.exposed_too_long > 0)
+    why += fmt::format("; a --max-exposure over {} ms takes those", choice_.max_exposure_ms);
+  if (options_.until_s)
+    why += fmt::format("; frames after --until {} are not counted", *options_.until_s);
+  return empty(why);
+}
+
 MethodScores FrameScoring::result() const {
-  MethodScores result{.methods = {}, .frames = count_, .first_fault = frames_.faults().first};
+  MethodScores result{.methods = {}, .frames = count_, .first_fault = first_fault()};
   for (const ScoredMethod& method : methods_) result.methods.push_back(method.result());
   return result;
 }
@@ -138,14 +172,16 @@ MethodScores FrameScoring::result() const {
 MethodScores FrameScoring::run() {
   begin();
   bool any = false;
-  for (; next_frame() && middle_of(frame_) <= until_; any = true) {
+  while (next_frame()) {
+    any = true;
     const core::Time middle = middle_of(frame_);
+    if (middle > until_) break;
     take_events(middle);
     consider_frame(middle);
     for (ScoredMethod& method : methods_) method.add_frame(frame_);
   }
-  if (!any) throw EmptyRecording("no frames to compare with; --reference PICTURE takes another");
-  if (count_.compared == 0) throw EmptyRecording(to_text(count_));
+  if (!any) throw empty("no frames to compare with; --reference PICTURE takes another");
+  if (count_.compared == 0) throw nothing_compared();
   return result();
 }
 
@@ -154,6 +190,8 @@ MethodScores FrameScoring::run() {
 MethodScores score_frames(camera::RecordingReader& events, camera::RecordingReader& frames,
                           const ScoreOptions& options, const FrameChoice& choice) {
   check(options, choice);
+  if (const auto why = too_small(events.size()); !why.empty())
+    throw EmptyRecording("sensor of " + why);
   return FrameScoring(events, frames, options, choice).run();
 }
 

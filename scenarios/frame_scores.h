@@ -1,7 +1,8 @@
 #pragma once
 
 #include "camera/recording.h"
-#include "scenarios/score_methods.h"
+#include "scenarios/method_scores.h"
+#include "scenarios/score_options.h"
 
 namespace nightjar::scenarios {
 
@@ -13,10 +14,12 @@ namespace nightjar::scenarios {
 ///
 /// A recurrent network takes its steps 1/rate_hz apart as nearly as lets one of them end at
 /// the middle of every frame: see NetworkSteps. Skipped are networks without weights, and EDI
-/// and FEDI where no frame they could use had ended by the last comparison.
+/// and FEDI where no frame they could use had ended by the last comparison; had one by then,
+/// their means hold the comparisons before it, too.
 ///
 /// Throws std::invalid_argument for options out of range and for what the readers and the
-/// reconstructors throw it for, EmptyRecording for one without events or frames to compare.
+/// reconstructors throw it for; EmptyRecording for one without events or frames to compare, and
+/// before it reads anything for a sensor with a side under kLeastSide_px.
 MethodScores score_frames(camera::RecordingReader& events, camera::RecordingReader& frames,
                           const ScoreOptions& options, const FrameChoice& choice);
 

@@ -62,8 +62,9 @@ double variance(const core::Image<std::uint8_t>& picture) {
   double sum = 0, sum_of_squares = 0;
   for (const double value : picture.pixels()) {
     sum += value;
-    sum_of_squares += value * value;  // whole numbers, exact in a double
+    sum_of_squares += value * value;
   }
+  // Whole numbers so far, exact in a double.
   const auto pixels = static_cast<double>(picture.pixels().size());
   return (sum_of_squares - sum * sum / pixels) / pixels;
 }
@@ -72,6 +73,12 @@ Score score(const core::Image<std::uint8_t>& picture, const core::Image<std::uin
   const esi::Quality quality = esi::compare(picture, reference);
   const double all = variance(reference);
   return {quality, all > 0 ? std::max(1 - quality.mse / all, 0.0) : 0.0};
+}
+
+std::string too_small(core::Resolution size) {
+  if (std::min(size.width_px, size.height_px) >= kLeastSide_px) return {};
+  return fmt::format("{}x{} px, allowed from {}x{} px", size.width_px, size.height_px,
+                     kLeastSide_px, kLeastSide_px);
 }
 
 std::optional<Score> mean_score(const std::vector<FrameScore>& frames) {

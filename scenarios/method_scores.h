@@ -10,6 +10,12 @@
 
 namespace nightjar::scenarios {
 
+/// Of a picture that can be scored: esi::compare()'s window has to fit.
+inline constexpr int kLeastSide_px = 11;
+
+/// "8x8 px, allowed from 11x11 px" for pictures too small to be scored, else empty.
+std::string too_small(core::Resolution size);
+
 /// How like a reference a picture is.
 struct Score {
   esi::Quality quality;
@@ -17,6 +23,7 @@ struct Score {
 };
 
 /// esi::compare() and the share explained, which is 0 where the reference has no variance.
+/// Throws as esi::compare().
 Score score(const core::Image<std::uint8_t>& picture, const core::Image<std::uint8_t>& reference);
 
 /// Mean squared difference from the mean, grey levels squared.
@@ -37,7 +44,8 @@ struct MethodScore {
   std::string skipped;             ///< Why there is no score.
 };
 
-/// How many of a recording's frames were references, and why others were not.
+/// How many of a recording's frames were references, and why others were not. Frames after
+/// ScoreOptions::until_s are not counted.
 struct FrameCount {
   std::uint64_t compared = 0;
   std::uint64_t too_early = 0;
@@ -46,6 +54,7 @@ struct FrameCount {
   std::uint64_t unfit = 0;  ///< Of a part of the sensor, or of one grey level.
 };
 
+/// What came of comparing several methods with the same references.
 struct MethodScores {
   std::vector<MethodScore> methods;
   std::optional<FrameCount> frames;  ///< Where those were the references.

@@ -1,6 +1,7 @@
 #include "scenarios/network_steps.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace nightjar::scenarios {
@@ -8,7 +9,9 @@ namespace nightjar::scenarios {
 NetworkSteps::NetworkSteps(core::Time begin, core::Time end, double rate_hz)
     : begin_(begin),
       end_(end),
-      steps_(std::max(std::round(core::seconds(end - begin) * rate_hz), 1.0)) {}
+      steps_(std::max(std::round(core::seconds(end - begin) * rate_hz), 1.0)) {
+  assert(begin <= end && rate_hz > 0);
+}
 
 core::Time NetworkSteps::step_end(core::Time t) const {
   if (end_ <= begin_) return end_;

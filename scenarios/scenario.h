@@ -53,7 +53,7 @@ struct Scenario {
 };
 
 /// Reads and checks a scenario file. What it does not say keeps its default, save that
-/// tracker.measurement.corner_inset_px suits the method (corner_inset.h). Throws
+/// tracker.measurement.corner_inset_px goes by the method (corner_inset.h). Throws
 /// ScenarioError, whose text starts with the file's name, for everything that is wrong with
 /// it, a missing model among them.
 Scenario load(const std::filesystem::path& path);

@@ -8,9 +8,9 @@
 #include "camera/recording.h"
 #include "scenarios/choice_text.h"
 #include "scenarios/frame_scores.h"
+#include "scenarios/method_needs.h"
 #include "scenarios/reconstruct.h"
 #include "scenarios/recordings.h"
-#include "scenarios/skipped_methods.h"
 
 namespace nightjar::scenarios {
 namespace {
@@ -50,6 +50,8 @@ MethodScore score_method(const std::filesystem::path& path,
 MethodScores score_against_picture(const std::filesystem::path& recording,
                                    const core::Image<std::uint8_t>& reference,
                                    const ScoreOptions& options) {
+  if (const auto why = too_small(reference.size()); !why.empty())
+    throw std::invalid_argument("reference of " + why);
   ReconstructOptions each;
   each.reconstructor = options.reconstructor;
   each.rate_hz = options.rate_hz;

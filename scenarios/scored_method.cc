@@ -1,11 +1,12 @@
 #include "scenarios/scored_method.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "esi/make_network.h"
 #include "esi/make_reconstructor.h"
 #include "scenarios/choice_text.h"
-#include "scenarios/skipped_methods.h"
+#include "scenarios/method_needs.h"
 
 namespace nightjar::scenarios {
 
@@ -42,6 +43,7 @@ void ScoredMethod::take_network_events(std::span<const core::Event> events,
     step_end_ = end;
     const auto later = std::ranges::upper_bound(events, end, {}, &core::Event::t);
     const auto count = static_cast<std::size_t>(later - events.begin());
+    assert(count > 0);  // the steps cover all events
     feed_->advance(events.first(count), events[count - 1].t);
     events = events.subspan(count);
   }
@@ -68,7 +70,7 @@ MethodScore ScoredMethod::result() const {
   }
   result.frames.clear();
   result.skipped = feed_->frames_refused() > 0 ? "needs frames: " + feed_->first_refusal()
-                                               : "needs a frame before those compared";
+                                               : "needs a frame before the last one compared";
   return result;
 }
 

@@ -34,8 +34,10 @@ middle of its exposure, made of the events up to then (and, of methods that use 
 those whose exposure had ended), and the numbers are averaged. Left out and counted: frames
 before --from, when a method has hardly had an event at most pixels; frames exposed for more
 than --max-exposure, in which what moves is blurred; frames without an event after them, of
-part of the sensor, or of one grey level. With --reference the picture at the last event is
-compared with PICTURE, whose size is the sensor's.
+part of the sensor, or of one grey level. Frames after --until are not counted. With
+--reference the picture at the last event is compared with PICTURE, whose size is the sensor's.
+At 5 lux a frame takes half a second: --max-exposure 500 compares with such frames, blurred as
+they are: a picture sharper than its reference loses by that.
 
 Pictures are compared after the affine change of grey levels (gain not negative) that fits
 them best; a gain of 0 says that the picture's levels do not go with the reference's at all.
@@ -45,11 +47,12 @@ stands still an earlier frame explains nearly all of a later one: "made of" says
 
 Each picture of a network is a step that changes all later ones, so a network makes N a
 second, spaced such that one falls on the middle of every frame. Skipped, and said so:
-networks without weights, EDI and FEDI where no frame came before those compared.
+networks without weights, EDI and FEDI where no frame came before the last one compared (where
+one did, their means hold comparisons before it, of events alone, too).
 
 Examples:
   nightjar quality flight.aedat4
-  nightjar quality flight.aedat4 --max-exposure 200 --from 1 --json
+  nightjar quality flight.aedat4 --max-exposure 500 --from 1 --json
   nightjar quality events.txt --reference frame.png
   nightjar quality flight.aedat4 --method esi --method firenet \
                    --set reconstructor.firenet.weights=firenet.onnx

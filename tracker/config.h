@@ -58,9 +58,9 @@ struct WindowConfig {
 /// How far one tag fix is trusted, as standard deviations.
 struct MeasurementConfig {
   /// By how much the black square looks too small on each side. White spreads over black
-  /// where pictures are of events: they count the logarithm, half of which is reached near
-  /// black (0.24 px), and a black pixel answers slowly in the dark. A scenario file that does
-  /// not say it gets what suits its reconstructor.method.
+  /// in sums of events: they count the logarithm, half of which is reached near black
+  /// (0.24 px), and a black pixel answers slowly in the dark. A scenario file that does not
+  /// say it gets another with reconstructor.method esi_net.
   double corner_inset_px = 0.4;
   double corner_noise_px = 0.5;      ///< Per corner and axis.
   double attitude_noise_rad = 0.01;  ///< Of the UAV's attitude: acts times the range.

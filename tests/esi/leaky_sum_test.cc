@@ -88,15 +88,21 @@ TEST(LeakySum, EveryInstructionSetLosesTheSameAfterEveryTime) {
   std::vector<PackedEvent> all;
   for (std::uint32_t i = 0; i < kTimes; ++i) all.push_back({i, 2 * i});
   const auto variants = leaky_sum_variants();
-  for (const double power : {0.01, 0.3, 1.0, 1.7, 12.0}) {
-    LeakySum sum = make(Leak::power, 10, power);
+  for (const auto& [rate_hz, power] : {std::pair{10.0, 0.01},
+                                       {10.0, 0.3},
+                                       {10.0, 1.0},
+                                       {10.0, 1.7},
+                                       {10.0, 12.0},
+                                       {1000.0, 0.3},
+                                       {1000.0, 3.0}}) {
+    LeakySum sum = make(Leak::power, rate_hz, power);
     sum.step = {0, 0};
     std::vector<SumCell> expected(kTimes, SumCell{1, 0});
     integrate(variants.front(), sum, all, expected.data());
     for (const LeakySumVariant& variant : variants) {
       std::vector<SumCell> cells(kTimes, SumCell{1, 0});
       integrate(variant, sum, all, cells.data());
-      EXPECT_TRUE(same_bits(cells, expected)) << variant.name << ' ' << power;
+      EXPECT_TRUE(same_bits(cells, expected)) << variant.name << ' ' << rate_hz << ' ' << power;
     }
   }
 }
@@ -108,10 +114,11 @@ TEST(LeakySum, EveryInstructionSetDrawsTheSame) {
     const auto cells = run(variants.front(), sum, all, all.size());
     for (const bool leak : {false, true})
       for (const std::uint32_t later_us : {0u, 300'000u, 0x7fffffffu, 0xbfffffffu}) {
-        std::vector<std::uint8_t> expected(kPixels), gray(kPixels);
+        std::vector<std::uint8_t> expected(kPixels);
         const std::uint32_t now_us = all.back().t_us + later_us;
         variants.front().draw(sum, leak, now_us, cells, expected.data());
         for (const LeakySumVariant& variant : variants) {
+          std::vector<std::uint8_t> gray(kPixels);
           variant.draw(sum, leak, now_us, cells, gray.data());
           EXPECT_EQ(gray, expected) << variant.name;
         }

@@ -69,9 +69,11 @@ TEST(MemoryCell, every_instruction_set_gives_the_same_features) {
   const auto cells = run(memory_variants().front(), all, 300, all.size());
   for (const std::uint32_t later_us : {0u, 1u, 100'000u, 0x7fffffffu, 0xbfffffffu}) {
     const std::uint32_t now_us = all.back().t_us + later_us;
-    std::vector<std::int16_t> expected(300 * 2 * kPixelFeatures), features = expected;
+    std::vector<std::int16_t> expected(300 * 2 * kPixelFeatures);
     memory_variants().front().features(cells.data(), 299, now_us, expected.data());
     for (const MemoryVariant& variant : memory_variants()) {
+      // A row ends in the middle of its last block: of the lower pixels nothing is written.
+      std::vector<std::int16_t> features(expected.size());
       variant.features(cells.data(), 299, now_us, features.data());
       EXPECT_EQ(features, expected) << variant.name << ' ' << later_us;
     }

@@ -64,9 +64,10 @@ double measured_inset_px(esi::Method method) {
   return sum_px / pictures;
 }
 
-// A value that fits all motions and lights lies up to 0.12 px from what a slow camera in
-// 5 lux shows; esi's and esi_net's lie 0.6 px apart.
-constexpr double kTolerance_px = 0.15;
+// A slow camera in 5 lux shows 0.36 and -0.17 px. Over motions and lights that varies by 0.32 px
+// with esi and by 0.12 with esi_net (docs/decisions/0009): a value that far from this one motion's
+// as half the greater of the two suits none of them. Esi's and esi_net's lie 0.6 px apart.
+constexpr double kTolerance_px = 0.16;
 
 TEST(CornerInset, is_what_esi_shows) {
   EXPECT_NEAR(corner_inset_px(esi::Method::esi), measured_inset_px(esi::Method::esi),
@@ -78,8 +79,11 @@ TEST(CornerInset, is_what_esi_net_shows) {
               kTolerance_px);
 }
 
-TEST(CornerInset, of_a_method_that_is_not_measured_is_the_trackers) {
-  EXPECT_EQ(corner_inset_px(esi::Method::firenet), tracker::MeasurementConfig{}.corner_inset_px);
+TEST(CornerInset, of_other_methods_is_the_trackers) {
+  for (const auto& [name, method] : esi::kMethods) {
+    if (method == esi::Method::esi_net) continue;
+    EXPECT_EQ(corner_inset_px(method), tracker::MeasurementConfig{}.corner_inset_px) << name;
+  }
 }
 
 }  // namespace

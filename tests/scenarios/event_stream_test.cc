@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <initializer_list>
+#include <vector>
+
 #include "tests/support/fake_recording.h"
 
 namespace nightjar::scenarios {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 namespace nightjar::scenarios {
 namespace {
@@ -41,6 +42,15 @@ TEST(MethodScores, the_share_explained_is_of_the_references_variance) {
   for (int y = 0; y < 12; ++y)
     for (int x = 3; x < 6; ++x) picture(x, y) = 20;
   EXPECT_NEAR(score(picture, reference).explained, 1.0 / 3, 1e-12);  // rounding
+}
+
+TEST(MethodScores, are_of_pictures_that_the_window_of_the_comparison_fits_into) {
+  const auto square = [](int side_px) { return Picture({side_px, side_px}); };
+  EXPECT_EQ(too_small({kLeastSide_px, kLeastSide_px}), "");
+  EXPECT_NO_THROW(score(square(kLeastSide_px), square(kLeastSide_px)));
+  EXPECT_EQ(too_small({40, 10}), "40x10 px, allowed from 11x11 px");
+  EXPECT_EQ(too_small({10, 40}), "10x40 px, allowed from 11x11 px");
+  EXPECT_THROW(score(square(kLeastSide_px - 1), square(kLeastSide_px - 1)), std::invalid_argument);
 }
 
 TEST(MethodScores, of_several_frames_are_means) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <stdexcept>
 
 #include "scenarios/recordings.h"
@@ -47,13 +48,17 @@ class ScoreMethodsTest : public testing::Test {
     return folder_ / name;
   }
 
-  std::string error_against_frames(const std::filesystem::path& path) const {
+  static std::string error_of(const std::function<void()>& action) {
     try {
-      score_against_frames(path, std::nullopt, options_, {});
+      action();
     } catch (const std::invalid_argument& error) {
       return error.what();
     }
     return "no error";
+  }
+
+  std::string error_against_frames(const std::filesystem::path& path) const {
+    return error_of([&] { score_against_frames(path, std::nullopt, options_, {}); });
   }
 
   test::ScratchFolder folder_;
@@ -74,8 +79,10 @@ TEST_F(ScoreMethodsTest, scores_a_right_picture_high_and_a_wrong_one_low) {
   for (int x = 0; x < 24; x += 3)
     for (int y = 0; y < 24; ++y) stripes(x, y) = 255;
   const MethodScores wrong = score_against_picture(path, stripes, options_);
-  EXPECT_LT(wrong.methods[0].score->quality.ssim, 0.3);
-  EXPECT_LT(wrong.methods[0].score->explained, 0.1);
+  // The picture has two levels, as square_ has, and which two does not matter.
+  EXPECT_NEAR(wrong.methods[0].score->quality.ssim, esi::compare(square_, stripes).ssim, 1e-9);
+  // r^2 of a square of 1/9 of the pixels and stripes of 1/3, with 3/8 of the square in common.
+  EXPECT_NEAR(wrong.methods[0].score->explained, 1.0 / 1024, 1e-9);
 }
 
 TEST_F(ScoreMethodsTest, says_which_methods_were_skipped_and_why) {
@@ -101,6 +108,18 @@ TEST_F(ScoreMethodsTest, refuses_a_reference_of_another_size) {
   const auto path = write("events.txt");
   EXPECT_THROW(score_against_picture(path, core::Image<std::uint8_t>({12, 12}), options_),
                std::invalid_argument);
+}
+
+TEST_F(ScoreMethodsTest, refuses_too_small_a_sensor_before_it_reads) {
+  EXPECT_THAT(
+      error_of([&] {
+        score_against_picture(folder_ / "none.txt", core::Image<std::uint8_t>({40, 10}), options_);
+      }),
+      HasSubstr("reference of 40x10 px, allowed from 11x11"));
+  square_ = core::Image<std::uint8_t>({10, 40});
+  part_ = {};
+  EXPECT_THAT(error_against_frames(write("thin.aedat4")),
+              HasSubstr("thin.aedat4: sensor of 10x40 px, allowed from 11x11"));
 }
 
 TEST_F(ScoreMethodsTest, finds_its_references_in_every_format_that_carries_frames) {

@@ -90,10 +90,20 @@ TEST_F(QualityCommandTest, compares_the_frames_it_is_told_to) {
   EXPECT_EQ(json["frames"]["compared"], 3);  // at 20, 100 and 200 ms
   const auto& edi = json["methods"][0];
   ASSERT_EQ(edi["frames"].size(), 3u);
-  EXPECT_EQ(edi["frames"][1]["time_us"], 110'000);  // the first event was at 10 ms
-  EXPECT_GT(edi["frames"][1]["explained"], 0.99);   // it had seen the same before
-  EXPECT_LT(edi["frames"][0]["explained"], 0.95);   // and here nothing but events
+  EXPECT_EQ(edi["frames"][1]["time_us"], 110'000);      // the first event was at 10 ms
+  EXPECT_NEAR(edi["frames"][1]["explained"], 1, 1e-9);  // it had seen the same before ...
+  // ... and here only events: r^2 of a square of 64 of 256 px and that with a line of 8 px.
+  EXPECT_NEAR(edi["frames"][0]["explained"], 23.0 / 27, 1e-9);
   EXPECT_EQ(edi["saw_frames"], true);
+}
+
+TEST_F(QualityCommandTest, says_how_long_exposures_can_be_taken) {
+  write_flight();
+  EXPECT_EQ(run_program("quality flight.aedat4 --max-exposure 5"), 2);
+  expect_one_line("flight.aedat4: 0 frames compared, 4 left out: 1 too early, 3 exposed for too");
+  EXPECT_NE(err.find("a --max-exposure over 5 ms takes those"), std::string::npos) << err;
+  EXPECT_EQ(run_program("quality flight.aedat4 --until 0.01"), 2);
+  expect_one_line("until_s = 0.01, allowed from_s (--from) = 0.05 to");
 }
 
 TEST_F(QualityCommandTest, is_silent_when_told_to) {

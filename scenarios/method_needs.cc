@@ -1,4 +1,4 @@
-#include "scenarios/skipped_methods.h"
+#include "scenarios/method_needs.h"
 
 #include <fmt/format.h>
 

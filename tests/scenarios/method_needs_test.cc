@@ -1,4 +1,4 @@
-#include "scenarios/skipped_methods.h"
+#include "scenarios/method_needs.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ esi::ReconstructorConfig config(esi::Method method) {
   return config;
 }
 
-TEST(SkippedMethods, are_networks_without_weights) {
+TEST(MethodNeeds, are_weights_for_networks) {
   EXPECT_EQ(lacks_weights(config(esi::Method::e2vid)), "no weights: reconstructor.e2vid.weights");
   esi::ReconstructorConfig firenet = config(esi::Method::firenet);
   firenet.e2vid.weights = "others.onnx";
@@ -21,7 +21,7 @@ TEST(SkippedMethods, are_networks_without_weights) {
   EXPECT_EQ(lacks_weights(config(esi::Method::esi)), "");
 }
 
-TEST(SkippedMethods, can_be_told_not_to_take_frames) {
+TEST(MethodNeeds, are_no_frames_where_a_method_is_told_to_do_without) {
   EXPECT_FALSE(is_given_frames(config(esi::Method::esi)));
   EXPECT_TRUE(is_given_frames(config(esi::Method::edi)));
   esi::ReconstructorConfig filter = config(esi::Method::complementary_filter);
