@@ -128,7 +128,7 @@ PowerTerms interpolated_terms(double greatest, double unit, double power) {
 
 PowerTerms power_terms_of(Leak leak, double power) {
   if (leak == Leak::smooth_power) return interpolated_terms<8>(1, gone_at(leak, power), power);
-  if (leak == Leak::power) return interpolated_terms<6>(0.5, 1, power);
+  if (leak == Leak::power) return interpolated_terms<5>(0.5, 1, power);
   return {};
 }
 

@@ -43,7 +43,7 @@ struct LeakySum {
   /// (1 - 8/b)^b, below 1.1e-4. Of linear and of powers nothing is left where this times dt is 1
   /// or more; rounded so that for b <= 8 that is so from dt = 1/k on.
   float rate_per_us;
-  std::array<float, 8> power_terms{};     ///< Of the polynomial, in rising powers; power: six.
+  std::array<float, 8> power_terms{};     ///< Of the polynomial, in rising powers; power: five.
   std::array<float, 5> octave_factors{};  ///< Power: 2^(-b 2^i).
   /// Power: 2^(-b i), as the product of those, by the last bits of the exponent of a float
   /// from 2^-(i + 1) to 2^-i. For 1 itself 1, for 0 none.
@@ -62,7 +62,7 @@ struct LeakySumVariant {
 };
 
 /// Those this processor can run, slowest first. All give the same bits; what is lost is
-/// within 3e-5 of itself, for b > 1 within 1.2e-3.
+/// within 5e-5 of itself, for b > 1 within 1.2e-3.
 std::vector<LeakySumVariant> leaky_sum_variants();
 
 /// The last of them.

@@ -108,8 +108,8 @@ template <int kTerms>
 [[NIGHTJAR_AVX512, gnu::always_inline]] inline Floats loss_ratios(const Constants& c, Floats u) {
   const Floats u2 = u * u;
   const auto& a = c.power_terms;
-  Floats high = a[4] + a[5] * u;
-  if constexpr (kTerms == 8) high += u2 * (a[6] + a[7] * u);
+  Floats high = a[4];
+  if constexpr (kTerms == 8) high = (high + a[5] * u) + u2 * (a[6] + a[7] * u);
   return (a[0] + a[1] * u) + u2 * ((a[2] + a[3] * u) + u2 * high);
 }
 
@@ -122,7 +122,7 @@ template <int kTerms>
   const auto mantissa = reinterpret_cast<Floats>(_mm512_maskz_getmant_ps(
       kAllFew, reinterpret_cast<__m512>(left), _MM_MANT_NORM_p5_1, _MM_MANT_SIGN_src));
   const Floats v = u <= 0.5f ? u : 1.0f - mantissa;
-  return (1.0f - power) + (power * v) * loss_ratios<6>(c, v);
+  return (1.0f - power) + (power * v) * loss_ratios<5>(c, v);
 }
 
 /// exp2_loss() of each.

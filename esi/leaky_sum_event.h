@@ -35,13 +35,13 @@ inline constexpr std::array<float, 4> kLossExp2 = {0.69313686f, 0.24023252f, 0.0
   return (1.0f - power) - power * growth;
 }
 
-/// (1 - (1 - u)^p)/u by its polynomial, of 6 or of 8 terms.
+/// (1 - (1 - u)^p)/u by its polynomial, of 5 or of 8 terms.
 template <int kTerms>
 [[gnu::always_inline]] inline float loss_ratio(const LeakySum& c, float u) {
   const float u2 = u * u;
   const auto& a = c.power_terms;  // in pairs: a shorter chain than Horner's
-  float high = a[4] + a[5] * u;
-  if constexpr (kTerms == 8) high += u2 * (a[6] + a[7] * u);
+  float high = a[4];
+  if constexpr (kTerms == 8) high = (high + a[5] * u) + u2 * (a[6] + a[7] * u);
   return (a[0] + a[1] * u) + u2 * ((a[2] + a[3] * u) + u2 * high);
 }
 
@@ -63,7 +63,7 @@ template <int kTerms>
   const float mantissa = std::bit_cast<float>((bits & 0x007fffffu) | 0x3f000000u);
   const float v = select(u <= 0.5f, u, 1.0f - mantissa);  // u is the finer of the two
   const float power = octave_power(c, 126u - (bits >> 23));
-  return (1.0f - power) + (power * v) * loss_ratio<6>(c, v);
+  return (1.0f - power) + (power * v) * loss_ratio<5>(c, v);
 }
 
 /// What is lost of a sum: a share, but an amount for Leak::slope.
