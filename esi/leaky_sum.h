@@ -62,7 +62,7 @@ struct LeakySumVariant {
 };
 
 /// Those this processor can run, slowest first. All give the same bits; what is lost is
-/// within 5e-5 of itself, for b > 1 within 1.2e-3.
+/// within 3e-5 of itself, for b < 0.25 within 5e-5, for b > 1 within 1.2e-3.
 std::vector<LeakySumVariant> leaky_sum_variants();
 
 /// The last of them.

@@ -46,10 +46,9 @@ inline void take(const PackedEvent& e, MemoryCell* cells) {
   const Floats size = is_sum ? (sum > 0.0f ? sum : -sum) : age;
   const Floats over = is_sum ? sum : Floats{} + 1.0f;
   const Floats value = floats(c.scale) * over / (1.0f + floats(c.squeeze) * size);
-  // Above 0, where dropping the fraction rounds downwards.
-  constexpr int kLift = 2 * kFeatureOne;
   const Ints whole =
-      __builtin_convertvector(value * float{kFeatureOne} + (kLift + 0.5f), Ints) - kLift;
+      __builtin_convertvector(value * float{kFeatureOne} + (kFeatureLift + 0.5f), Ints) -
+      kFeatureLift;
   *reinterpret_cast<Shorts*>(to) = __builtin_convertvector(whole, Shorts);
 }
 

@@ -10,6 +10,8 @@ namespace nightjar::esi {
 /// A cell as a register: its sums, and its time as the last lane.
 inline constexpr int kMemoryLanes = kMemories + 1;
 inline constexpr int kTimeLane = kMemories;
+/// Added before a feature's fraction is dropped, which rounds downwards above 0 alone.
+inline constexpr int kFeatureLift = 2 * kFeatureOne;
 static_assert(sizeof(MemoryCell) == kMemoryLanes * sizeof(float));
 
 /// kPixelMemories, a register for each member, and something harmless in the time's place.

@@ -91,11 +91,10 @@ struct Visit {
   const __m512 over = _mm512_mask_mov_ps(one, kTwoSums, sum);
   const __m512 value = _mm512_div_ps(_mm512_mul_ps(twice(c.scale), over),
                                      _mm512_add_ps(one, _mm512_mul_ps(twice(c.squeeze), size)));
-  constexpr int kLift = 2 * kFeatureOne;  // above 0 dropping the fraction rounds downwards
   const __m512 lifted = _mm512_add_ps(_mm512_mul_ps(value, _mm512_set1_ps(kFeatureOne)),
-                                      _mm512_set1_ps(kLift + 0.5f));
+                                      _mm512_set1_ps(kFeatureLift + 0.5f));
   const __m512i whole =
-      _mm512_sub_epi32(_mm512_maskz_cvttps_epi32(kAll, lifted), _mm512_set1_epi32(kLift));
+      _mm512_sub_epi32(_mm512_maskz_cvttps_epi32(kAll, lifted), _mm512_set1_epi32(kFeatureLift));
   return _mm512_maskz_cvtepi32_epi16(kAll, whole);
 }
 

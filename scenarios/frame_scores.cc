@@ -18,8 +18,6 @@
 namespace nightjar::scenarios {
 namespace {
 
-constexpr double kMostSeconds = 1e9;
-
 void check(const ScoreOptions& options, const FrameChoice& choice) {
   core::check_range("fps", options.rate_hz, 0.01, 100000);
   core::check_range("from_s", choice.from_s, 0, kMostSeconds);

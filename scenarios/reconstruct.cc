@@ -20,7 +20,6 @@ namespace {
 /// Longer without events, the pictures between are left out: a clock that jumped ahead by
 /// years must not fill the disk.
 constexpr core::Time kMostPause = std::chrono::minutes(1);
-constexpr double kMostSeconds = 1e9;
 
 class Reconstructing {
  public:

@@ -21,6 +21,9 @@ class EmptyRecording : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
+/// Of from_s and until_s.
+inline constexpr double kMostSeconds = 1e9;
+
 struct ReconstructOptions {
   esi::ReconstructorConfig reconstructor;
   double rate_hz = 100;                             ///< Of the pictures, 0.01 to 100000.
