@@ -31,8 +31,12 @@ class BlockOutput {
   using Levels = std::array<std::uint8_t, kPixels>;
   Levels levels_of(std::span<const std::int16_t> hidden,
                    std::span<const std::int16_t> features) const;
+  void write_row(const ChannelImage& hidden, const ChannelImage& features, int row, int from,
+                 core::Image<std::uint8_t>& gray) const;
+  int write_row_avx2(const ChannelImage& hidden, const ChannelImage& features, int row,
+                     core::Image<std::uint8_t>& gray) const;
 
-  /// [pairs of values][kPixels][2 of a pair]: a pair's, side by side.
+  /// [pairs of values][2 times the same][kPixels][2 of a pair]: a pair's, side by side.
   std::vector<std::int16_t> weights_;
   std::array<std::int32_t, kPixels> bias_;
   float levels_;

@@ -9,37 +9,43 @@
 namespace nightjar::esi {
 namespace {
 
-TEST(BlockOutput, gives_each_pixel_of_a_block_its_own_weights_at_even_and_odd_sizes) {
-  core::Random random = core::random_stream(/*seed=*/1, "test.block_output");
-  constexpr int kHidden = 16, kFeatures = 6, kValues = kHidden + kFeatures;
-  std::array<std::int16_t, 4 * kValues> weights;
+constexpr int kHidden = 16;
+constexpr float kLevels = 45.0f / (512 << 12);
+
+void expect_own_weights(int feature_count, core::Resolution size, core::Random& random) {
+  const auto values = static_cast<std::size_t>(kHidden + feature_count);
+  std::vector<std::int16_t> weights(4 * values);
   std::array<std::int32_t, 4> bias;
   for (auto& w : weights) w = static_cast<std::int16_t>(random() % 2001 - 1000);
   for (auto& b : bias) b = static_cast<std::int32_t>(random() % 2'000'001 - 1'000'000);
-  constexpr float kLevels = 45.0f / (512 << 12);
   const BlockOutput output(weights, bias, kLevels);
+  ChannelImage hidden((size.width_px + 1) / 2, (size.height_px + 1) / 2, kHidden);
+  ChannelImage features(hidden.width(), hidden.height(), feature_count);
+  for (ChannelImage* image : {&hidden, &features})
+    for (int y = 0; y < image->height(); ++y)
+      for (int i = 0; i < image->width() * image->channels(); ++i)
+        image->at(0, y)[i] = static_cast<std::int16_t>(random() % (kMostValue / 2));
+  core::Image<std::uint8_t> gray(size);
+  output.write(hidden, features, gray);
+  for (int y = 0; y < size.height_px; ++y)
+    for (int x = 0; x < size.width_px; ++x) {
+      const auto i = static_cast<std::size_t>(y % 2 * 2 + x % 2);
+      double sum = bias[i];
+      for (std::size_t k = 0; k < values; ++k)
+        sum += weights[i * values + k] *
+               (k < kHidden ? hidden.at(x / 2, y / 2)[k] : features.at(x / 2, y / 2)[k - kHidden]);
+      const double level = std::clamp(127.5 + double{kLevels} * sum, 0.0, 255.0);
+      // Rounded to the nearest; floats of some 1e2 are right to 2e-5.
+      ASSERT_NEAR(gray(x, y), level, 0.5 + 1e-4) << x << ", " << y;
+    }
+}
+
+TEST(BlockOutput, gives_each_pixel_of_a_block_its_own_weights_at_even_and_odd_sizes) {
+  core::Random random = core::random_stream(/*seed=*/1, "test.block_output");
   for (const core::Resolution size :
-       {core::Resolution{1, 1}, {2, 2}, {5, 4}, {4, 5}, {13, 7}, {346, 2}}) {
-    ChannelImage hidden((size.width_px + 1) / 2, (size.height_px + 1) / 2, kHidden);
-    ChannelImage features(hidden.width(), hidden.height(), kFeatures);
-    for (ChannelImage* values : {&hidden, &features})
-      for (int y = 0; y < values->height(); ++y)
-        for (int i = 0; i < values->width() * values->channels(); ++i)
-          values->at(0, y)[i] = static_cast<std::int16_t>(random() % (kMostValue / 2));
-    core::Image<std::uint8_t> gray(size);
-    output.write(hidden, features, gray);
-    for (int y = 0; y < size.height_px; ++y)
-      for (int x = 0; x < size.width_px; ++x) {
-        const auto i = static_cast<std::size_t>(y % 2 * 2 + x % 2);
-        double sum = bias[i];
-        for (std::size_t k = 0; k < kValues; ++k)
-          sum += weights[i * kValues + k] * (k < kHidden ? hidden.at(x / 2, y / 2)[k]
-                                                         : features.at(x / 2, y / 2)[k - kHidden]);
-        const double level = std::clamp(127.5 + double{kLevels} * sum, 0.0, 255.0);
-        // Rounded to the nearest; floats of some 1e2 are right to 2e-5.
-        ASSERT_NEAR(gray(x, y), level, 0.5 + 1e-4) << x << ", " << y;
-      }
-  }
+       {core::Resolution{1, 1}, {2, 2}, {5, 4}, {4, 5}, {13, 7}, {346, 2}, {347, 3}})
+    for (const int feature_count : {6, 32})  // two blocks at once take eight values at a time
+      expect_own_weights(feature_count, size, random);
 }
 
 TEST(BlockOutput, keeps_to_8_bits) {
