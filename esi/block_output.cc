@@ -24,40 +24,23 @@ BlockOutput::BlockOutput(std::span<const std::int16_t> weights,
         weights_[((k / 2 * 2 + copy) * kPixels + i) * 2 + k % 2] = weights[i * values + k];
 }
 
-#if defined(__x86_64__)
-
-namespace {
-
-/// The four pixels' sums, with what `values` give; `weight` goes on by as many.
-__m128i add_products(__m128i sums, const std::int16_t*& weight,
-                     std::span<const std::int16_t> values) {
-  for (std::size_t k = 0; k < values.size(); k += 2, weight += 4 * BlockOutput::kPixels) {
-    int two;
-    std::memcpy(&two, values.data() + k, sizeof(two));
-    const __m128i weights = _mm_loadu_si128(reinterpret_cast<const __m128i*>(weight));
-    sums = _mm_add_epi32(sums, _mm_madd_epi16(_mm_set1_epi32(two), weights));
-  }
-  return sums;
-}
-
-}  // namespace
-
 BlockOutput::Levels BlockOutput::levels_of(std::span<const std::int16_t> hidden,
                                            std::span<const std::int16_t> features) const {
+  std::array<std::int32_t, kPixels> sums = bias_;
   const std::int16_t* weight = weights_.data();
-  __m128i sums = _mm_loadu_si128(reinterpret_cast<const __m128i*>(bias_.data()));
-  sums = add_products(sums, weight, hidden);
-  sums = add_products(sums, weight, features);
-  __m128 level =
-      _mm_add_ps(_mm_set1_ps(127.5f), _mm_mul_ps(_mm_set1_ps(levels_), _mm_cvtepi32_ps(sums)));
-  level = _mm_min_ps(_mm_max_ps(level, _mm_setzero_ps()), _mm_set1_ps(255.0f));
-  const __m128i whole = _mm_cvttps_epi32(_mm_add_ps(level, _mm_set1_ps(0.5f)));
-  const __m128i words = _mm_packs_epi32(whole, whole);
-  const int bytes = _mm_cvtsi128_si32(_mm_packus_epi16(words, words));
+  for (const auto values : {hidden, features})
+    for (std::size_t k = 0; k < values.size(); k += 2, weight += 4 * kPixels)
+      for (std::size_t i = 0; i < kPixels; ++i)
+        sums[i] += weight[2 * i] * values[k] + weight[2 * i + 1] * values[k + 1];
   Levels levels;
-  std::memcpy(levels.data(), &bytes, sizeof(bytes));
+  for (std::size_t i = 0; i < kPixels; ++i) {
+    const float level = 127.5f + levels_ * static_cast<float>(sums[i]);
+    levels[i] = static_cast<std::uint8_t>(std::clamp(level, 0.0f, 255.0f) + 0.5f);
+  }
   return levels;
 }
+
+#if defined(__x86_64__)
 
 namespace {
 
@@ -82,7 +65,6 @@ constexpr int kTogether = 8;  // values of a block that half a register holds
 
 }  // namespace
 
-/// Two blocks at a time. Returns where the first pixel is that it has not written.
 [[gnu::target("avx2")]] int BlockOutput::write_row_avx2(const ChannelImage& hidden,
                                                         const ChannelImage& features, int row,
                                                         core::Image<std::uint8_t>& gray) const {
@@ -113,24 +95,6 @@ constexpr int kTogether = 8;  // values of a block that half a register holds
   return x;
 }
 
-#else
-
-BlockOutput::Levels BlockOutput::levels_of(std::span<const std::int16_t> hidden,
-                                           std::span<const std::int16_t> features) const {
-  std::array<std::int32_t, kPixels> sums = bias_;
-  const std::int16_t* weight = weights_.data();
-  for (const auto values : {hidden, features})
-    for (std::size_t k = 0; k < values.size(); k += 2, weight += 4 * kPixels)
-      for (std::size_t i = 0; i < kPixels; ++i)
-        sums[i] += weight[2 * i] * values[k] + weight[2 * i + 1] * values[k + 1];
-  Levels levels;
-  for (std::size_t i = 0; i < kPixels; ++i) {
-    const float level = 127.5f + levels_ * static_cast<float>(sums[i]);
-    levels[i] = static_cast<std::uint8_t>(std::clamp(level, 0.0f, 255.0f) + 0.5f);
-  }
-  return levels;
-}
-
 #endif
 
 void BlockOutput::write_row(const ChannelImage& hidden, const ChannelImage& features, int row,
@@ -151,12 +115,14 @@ void BlockOutput::write(const ChannelImage& hidden, const ChannelImage& features
          2u * kPixels * static_cast<std::size_t>(hidden.channels() + features.channels()));
   assert(hidden.width() == features.width() && hidden.height() == features.height());
   assert(hidden.width() == (gray.width() + 1) / 2 && hidden.height() == (gray.height() + 1) / 2);
+#if defined(__x86_64__)
+  const bool two_at_once = core::instruction_sets().avx2 && hidden.channels() % kTogether == 0 &&
+                           features.channels() % kTogether == 0;
+#endif
   for (int row = 0; row < hidden.height(); ++row) {
     int x = 0;
 #if defined(__x86_64__)
-    const bool are_whole =
-        hidden.channels() % kTogether == 0 && features.channels() % kTogether == 0;
-    if (are_whole && core::instruction_sets().avx2) x = write_row_avx2(hidden, features, row, gray);
+    if (two_at_once) x = write_row_avx2(hidden, features, row, gray);
 #endif
     write_row(hidden, features, row, x, gray);
   }

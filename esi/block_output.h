@@ -31,8 +31,11 @@ class BlockOutput {
   using Levels = std::array<std::uint8_t, kPixels>;
   Levels levels_of(std::span<const std::int16_t> hidden,
                    std::span<const std::int16_t> features) const;
+  /// A row of blocks, from the pixel `from` on.
   void write_row(const ChannelImage& hidden, const ChannelImage& features, int row, int from,
                  core::Image<std::uint8_t>& gray) const;
+  /// The same, two blocks at a time, of as many channels as make whole registers. Returns where
+  /// the first pixel is that it has not written.
   int write_row_avx2(const ChannelImage& hidden, const ChannelImage& features, int row,
                      core::Image<std::uint8_t>& gray) const;
 
