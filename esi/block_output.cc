@@ -25,8 +25,10 @@ BlockOutput::BlockOutput(std::span<const std::int16_t> weights,
 }
 
 BlockOutput::Levels BlockOutput::levels_of(std::span<const std::int16_t> hidden,
-                                           std::span<const std::int16_t> features) const {
+                                           std::span<const std::int16_t> features,
+                                           std::int32_t shade) const {
   std::array<std::int32_t, kPixels> sums = bias_;
+  for (std::int32_t& sum : sums) sum += shade;
   const std::int16_t* weight = weights_.data();
   for (const auto values : {hidden, features})
     for (std::size_t k = 0; k < values.size(); k += 2, weight += 4 * kPixels)
@@ -66,7 +68,9 @@ constexpr int kTogether = 8;  // values of a block that half a register holds
 }  // namespace
 
 [[gnu::target("avx2")]] int BlockOutput::write_row_avx2(const ChannelImage& hidden,
-                                                        const ChannelImage& features, int row,
+                                                        const ChannelImage& features,
+                                                        const core::Image<std::int32_t>& shade,
+                                                        int row,
                                                         core::Image<std::uint8_t>& gray) const {
   const auto hidden_count = static_cast<std::size_t>(hidden.channels());
   const auto feature_count = static_cast<std::size_t>(features.channels());
@@ -75,8 +79,10 @@ constexpr int kTogether = 8;  // values of a block that half a register holds
   int x = 0;
   for (; x + 4 <= gray.width(); x += 4) {
     const auto* weight = reinterpret_cast<const __m256i*>(weights_.data());
-    __m256i sums =
-        add_products(bias, weight, hidden.at(x / 2, row), hidden.at(x / 2 + 1, row), hidden_count);
+    const __m256i shades =
+        _mm256_set_m128i(_mm_set1_epi32(shade(x / 2 + 1, row)), _mm_set1_epi32(shade(x / 2, row)));
+    __m256i sums = add_products(_mm256_add_epi32(bias, shades), weight, hidden.at(x / 2, row),
+                                hidden.at(x / 2 + 1, row), hidden_count);
     sums = add_products(sums, weight, features.at(x / 2, row), features.at(x / 2 + 1, row),
                         feature_count);
     __m256 level = _mm256_add_ps(_mm256_set1_ps(127.5f),
@@ -97,12 +103,14 @@ constexpr int kTogether = 8;  // values of a block that half a register holds
 
 #endif
 
-void BlockOutput::write_row(const ChannelImage& hidden, const ChannelImage& features, int row,
-                            int from, core::Image<std::uint8_t>& gray) const {
+void BlockOutput::write_row(const ChannelImage& hidden, const ChannelImage& features,
+                            const core::Image<std::int32_t>& shade, int row, int from,
+                            core::Image<std::uint8_t>& gray) const {
   for (int x = from; x < gray.width(); x += 2) {
     const Levels levels =
         levels_of({hidden.at(x / 2, row), static_cast<std::size_t>(hidden.channels())},
-                  {features.at(x / 2, row), static_cast<std::size_t>(features.channels())});
+                  {features.at(x / 2, row), static_cast<std::size_t>(features.channels())},
+                  shade(x / 2, row));
     const std::size_t count = x + 1 < gray.width() ? 2 : 1;
     std::memcpy(&gray(x, 2 * row), levels.data(), count);
     if (2 * row + 1 < gray.height()) std::memcpy(&gray(x, 2 * row + 1), levels.data() + 2, count);
@@ -110,10 +118,12 @@ void BlockOutput::write_row(const ChannelImage& hidden, const ChannelImage& feat
 }
 
 void BlockOutput::write(const ChannelImage& hidden, const ChannelImage& features,
+                        const core::Image<std::int32_t>& shade,
                         core::Image<std::uint8_t>& gray) const {
   assert(weights_.size() ==
          2u * kPixels * static_cast<std::size_t>(hidden.channels() + features.channels()));
   assert(hidden.width() == features.width() && hidden.height() == features.height());
+  assert(hidden.width() == shade.width() && hidden.height() == shade.height());
   assert(hidden.width() == (gray.width() + 1) / 2 && hidden.height() == (gray.height() + 1) / 2);
 #if defined(__x86_64__)
   const bool two_at_once = core::instruction_sets().avx2 && hidden.channels() % kTogether == 0 &&
@@ -122,9 +132,9 @@ void BlockOutput::write(const ChannelImage& hidden, const ChannelImage& features
   for (int row = 0; row < hidden.height(); ++row) {
     int x = 0;
 #if defined(__x86_64__)
-    if (two_at_once) x = write_row_avx2(hidden, features, row, gray);
+    if (two_at_once) x = write_row_avx2(hidden, features, shade, row, gray);
 #endif
-    write_row(hidden, features, row, x, gray);
+    write_row(hidden, features, shade, row, x, gray);
   }
 }
 

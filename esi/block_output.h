@@ -17,26 +17,28 @@ class BlockOutput {
   static constexpr int kPixels = 4;
 
   /// kPixels rows of equally many weights, an even number, for the values of a block, the
-  /// hidden ones first. A pixel's sum is its bias and its weights times the values, and its
-  /// level clamp(127.5 + levels * sum, 0, 255), rounded to the nearest.
+  /// hidden ones first. A pixel's sum is its bias, its weights times the values and its block's
+  /// shade, and its level clamp(127.5 + levels * sum, 0, 255), rounded to the nearest.
   BlockOutput(std::span<const std::int16_t> weights, std::span<const std::int32_t, kPixels> bias,
               float levels);
 
-  /// Both of one size; `gray` has twice their sides, or one pixel less at the right or the
+  /// All three of one size; `gray` has twice their sides, or one pixel less at the right or the
   /// bottom. The same on every processor. The caller sees to it that no sum exceeds 32 bits.
   void write(const ChannelImage& hidden, const ChannelImage& features,
-             core::Image<std::uint8_t>& gray) const;
+             const core::Image<std::int32_t>& shade, core::Image<std::uint8_t>& gray) const;
 
  private:
   using Levels = std::array<std::uint8_t, kPixels>;
-  Levels levels_of(std::span<const std::int16_t> hidden,
-                   std::span<const std::int16_t> features) const;
+  Levels levels_of(std::span<const std::int16_t> hidden, std::span<const std::int16_t> features,
+                   std::int32_t shade) const;
   /// A row of blocks, from the pixel `from` on.
-  void write_row(const ChannelImage& hidden, const ChannelImage& features, int row, int from,
+  void write_row(const ChannelImage& hidden, const ChannelImage& features,
+                 const core::Image<std::int32_t>& shade, int row, int from,
                  core::Image<std::uint8_t>& gray) const;
   /// The same, two blocks at a time, of as many channels as make whole registers. Returns where
   /// the first pixel is that it has not written.
-  int write_row_avx2(const ChannelImage& hidden, const ChannelImage& features, int row,
+  int write_row_avx2(const ChannelImage& hidden, const ChannelImage& features,
+                     const core::Image<std::int32_t>& shade, int row,
                      core::Image<std::uint8_t>& gray) const;
 
   /// [pairs of values][2 times the same][kPixels][2 of a pair]: a pair's, side by side.

@@ -1,8 +1,8 @@
 #include "esi/esi_net.h"
 
 #include <algorithm>
-#include <utility>
 
+#include "esi/channel_scaling.h"
 #include "esi/esi_net_weights.h"
 
 namespace nightjar::esi {
@@ -18,10 +18,11 @@ float levels_per_unit(const EsiNetConfig& config) {
 
 EsiNet::EsiNet(const EsiNetConfig& config, core::Resolution size)
     : Reconstructor(size),
+      shading_(halved(size.width_px), halved(size.height_px)),
       output_(esi_net_output(), esi_net_output_bias(), levels_per_unit(config)) {
-  const int width = (size.width_px + 1) / 2, height = (size.height_px + 1) / 2;
+  const int width = halved(size.width_px), height = halved(size.height_px);
   features_ = ChannelImage(width, height, 4 * kPixelFeatures);
-  hidden_ = next_hidden_ = ChannelImage(width, height, kConvolutionOut);
+  first_ = second_ = ChannelImage(width, height, kConvolutionOut);
   reset();
 }
 
@@ -56,13 +57,12 @@ void EsiNet::quantise_features(std::uint32_t now_us) {
 
 void EsiNet::draw(core::Time t, core::Image<std::uint8_t>& gray) {
   quantise_features(low_us(t));
-  const ChannelImage* in = &features_;
-  for (const Convolution& layer : esi_net_layers()) {
-    convolve(layer, *in, next_hidden_);
-    std::swap(hidden_, next_hidden_);
-    in = &hidden_;
-  }
-  output_.write(hidden_, features_, gray);
+  const auto layers = esi_net_layers();
+  ChannelImage& third = first_;  // the first one's values are needed no longer then
+  convolve(layers[0], features_, first_);
+  convolve(layers[1], first_, second_);
+  convolve(layers[2], second_, third);
+  output_.write(third, features_, shading_.of(second_, third), gray);
 }
 
 }  // namespace nightjar::esi

@@ -6,6 +6,7 @@
 #include "esi/esi_net_config.h"
 #include "esi/memory_cell.h"
 #include "esi/reconstructor.h"
+#include "esi/shading.h"
 #include "esi/small_convolution.h"
 
 namespace nightjar::esi {
@@ -15,8 +16,9 @@ namespace nightjar::esi {
 ///
 /// No one decay suits hovering and fast flight, darkness and light: a long memory keeps the
 /// picture and the noise, a short one loses both. Here each pixel has several, and the
-/// network sees from all of them, the neighbours' too, what is signal. It works in whole
-/// numbers: every processor gives the same picture.
+/// network sees from all of them, the neighbours' too, what is signal: edges. How bright the
+/// surfaces between them are, Shading adds. All in whole numbers: every processor gives the same
+/// picture.
 class EsiNet final : public Reconstructor {
  public:
   /// Throws std::invalid_argument for a config out of range.
@@ -38,7 +40,8 @@ class EsiNet final : public Reconstructor {
 
   std::vector<MemoryCell> cells_;
   ChannelImage features_;
-  ChannelImage hidden_, next_hidden_;
+  ChannelImage first_, second_;
+  Shading shading_;
   BlockOutput output_;
 };
 

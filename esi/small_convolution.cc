@@ -29,7 +29,7 @@ void row_plain(const Convolution& c, const ChannelImage& in, int y, ChannelImage
     std::int16_t* to = out.at(x, y);
     for (int o = 0; o < kConvolutionOut; ++o)
       to[o] = static_cast<std::int16_t>(
-          std::clamp((sums[o] + half_of(c.shift)) >> c.shift, 0, kMostValue));
+          std::clamp((sums[o] + half_of(c.shift)) >> c.shift, c.least, kMostValue));
   }
 }
 
@@ -62,13 +62,13 @@ void pixels_sse2(const Convolution& c, const ChannelImage& in, int x, int y, Cha
       }
   }
   const __m128i half = _mm_set1_epi32(half_of(c.shift)), shift = _mm_cvtsi32_si128(c.shift);
+  const __m128i least = _mm_set1_epi16(static_cast<std::int16_t>(c.least));
   for (int p = 0; p < kPixels; ++p)
     for (int i = 0; i < 4; i += 2) {
       const __m128i low = _mm_sra_epi32(_mm_add_epi32(sums[p][i], half), shift);
       const __m128i high = _mm_sra_epi32(_mm_add_epi32(sums[p][i + 1], half), shift);
-      const __m128i both =
-          _mm_min_epi16(_mm_max_epi16(_mm_packs_epi32(low, high), _mm_setzero_si128()),
-                        _mm_set1_epi16(kMostValue));
+      const __m128i both = _mm_min_epi16(_mm_max_epi16(_mm_packs_epi32(low, high), least),
+                                         _mm_set1_epi16(kMostValue));
       _mm_storeu_si128(reinterpret_cast<__m128i*>(out.at(x + p, y) + 4 * i), both);
     }
 }
@@ -105,14 +105,14 @@ template <int kPixels>
     }
   }
   const __m256i half = _mm256_set1_epi32(half_of(c.shift));
+  const __m256i least = _mm256_set1_epi16(static_cast<std::int16_t>(c.least));
   const __m128i shift = _mm_cvtsi32_si128(c.shift);
   for (int p = 0; p < kPixels; ++p) {
     const __m256i low = _mm256_sra_epi32(_mm256_add_epi32(sums[p][0], half), shift);
     const __m256i high = _mm256_sra_epi32(_mm256_add_epi32(sums[p][1], half), shift);
     // Packing works within halves of the register: put the quarters in order again.
     __m256i both = _mm256_permute4x64_epi64(_mm256_packs_epi32(low, high), 0b11'01'10'00);
-    both = _mm256_min_epi16(_mm256_max_epi16(both, _mm256_setzero_si256()),
-                            _mm256_set1_epi16(kMostValue));
+    both = _mm256_min_epi16(_mm256_max_epi16(both, least), _mm256_set1_epi16(kMostValue));
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(out.at(x + p, y)), both);
   }
 }
@@ -147,13 +147,14 @@ template <int kPixels>
   }
   constexpr __mmask16 kAll = 0xffff;  // gcc 12 warns of its own header without a mask
   const __m512i half = _mm512_set1_epi32(half_of(c.shift));
+  const __m256i least = _mm256_set1_epi16(static_cast<std::int16_t>(c.least));
   const __m128i shift = _mm_cvtsi32_si128(c.shift);
   for (int p = 0; p < kPixels; ++p) {
     const __m512i sum = _mm512_maskz_add_epi32(kAll, sums[p], half);
     const __m256i whole =
         _mm512_maskz_cvtsepi32_epi16(kAll, _mm512_maskz_sra_epi32(kAll, sum, shift));
-    const __m256i bounded = _mm256_min_epi16(_mm256_max_epi16(whole, _mm256_setzero_si256()),
-                                             _mm256_set1_epi16(kMostValue));
+    const __m256i bounded =
+        _mm256_min_epi16(_mm256_max_epi16(whole, least), _mm256_set1_epi16(kMostValue));
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(out.at(x + p, y)), bounded);
   }
 }

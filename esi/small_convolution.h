@@ -45,12 +45,13 @@ struct Convolution {
   std::span<const std::int16_t> weights;
   std::span<const std::int32_t> bias;  ///< kConvolutionOut.
   int shift = 0;                       ///< The sum's bits below a value's.
+  int least = 0;                       ///< Value put out, at least; not above kMostValue.
 };
 
 /// The greatest value that convolve() puts out.
 inline constexpr int kMostValue = 8191;
 
-/// out = min(max((sum + bias + half) >> shift, 0), kMostValue), zeros around the picture, in
+/// out = min(max((sum + bias + half) >> shift, least), kMostValue), zeros around the picture, in
 /// whole numbers: the same on every processor. `out` has the size of `in` and
 /// kConvolutionOut channels. The caller sees to it that no sum exceeds 32 bits.
 void convolve(const Convolution& convolution, const ChannelImage& in, ChannelImage& out);

@@ -27,12 +27,15 @@ void expect_own_weights(int feature_count, core::Resolution size, core::Random& 
     for (int y = 0; y < image->height(); ++y)
       for (int i = 0; i < image->width() * image->channels(); ++i)
         image->at(0, y)[i] = static_cast<std::int16_t>(random() % (kMostValue / 2));
+  core::Image<std::int32_t> shade({hidden.width(), hidden.height()});
+  for (std::int32_t& s : shade.pixels())
+    s = static_cast<std::int32_t>(random() % 4'000'001) - 2'000'000;
   core::Image<std::uint8_t> gray(size);
-  output.write(hidden, features, gray);
+  output.write(hidden, features, shade, gray);
   for (int y = 0; y < size.height_px; ++y)
     for (int x = 0; x < size.width_px; ++x) {
       const auto i = static_cast<std::size_t>(y % 2 * 2 + x % 2);
-      double sum = bias[i];
+      double sum = bias[i] + shade(x / 2, y / 2);
       for (std::size_t k = 0; k < values; ++k)
         sum += weights[i * values + k] *
                (k < kHidden ? hidden.at(x / 2, y / 2)[k] : features.at(x / 2, y / 2)[k - kHidden]);
@@ -60,7 +63,7 @@ TEST(BlockOutput, keeps_to_8_bits) {
   const ChannelImage features(1, 1, 2);
   hidden.at(0, 0)[0] = kMostValue;
   core::Image<std::uint8_t> gray({2, 2});
-  output.write(hidden, features, gray);
+  output.write(hidden, features, core::Image<std::int32_t>({1, 1}), gray);
   EXPECT_EQ(gray(0, 0), 255);
   EXPECT_EQ(gray(1, 0), 128);  // 127.5, rounded
   EXPECT_EQ(gray(0, 1), 0);

@@ -13,17 +13,22 @@ namespace {
 
 /// Weights by what they join, and in the order that Convolution takes them in.
 struct Kernel {
-  Kernel(int channels, int bits)
-      : in(channels), shift(bits), weights(static_cast<std::size_t>(9 * channels * 16)), bias(16) {}
+  Kernel(int channels, int bits, int least_value = 0)
+      : in(channels),
+        shift(bits),
+        least(least_value),
+        weights(static_cast<std::size_t>(9 * channels * 16)),
+        bias(16) {}
 
   std::int16_t& at(int row, int column, int from, int to) {
     const int pair = (row * 3 + column) * (in / 2) + from / 2;
     return weights[static_cast<std::size_t>((pair * 16 + to) * 2 + from % 2)];
   }
-  Convolution convolution() const { return {in, weights, bias, shift}; }
+  Convolution convolution() const { return {in, weights, bias, shift, least}; }
 
   int in;
   int shift;
+  int least;
   std::vector<std::int16_t> weights;
   std::vector<std::int32_t> bias;
 };
@@ -32,8 +37,8 @@ int between(int least, int greatest, core::Random& random) {
   return least + static_cast<int>(random() % static_cast<std::uint64_t>(greatest - least + 1));
 }
 
-Kernel random_kernel(int channels, int shift, core::Random& random) {
-  Kernel kernel(channels, shift);
+Kernel random_kernel(int channels, int shift, int least, core::Random& random) {
+  Kernel kernel(channels, shift, least);
   for (std::int16_t& w : kernel.weights) w = static_cast<std::int16_t>(between(-700, 700, random));
   for (std::int32_t& b : kernel.bias) b = between(-2'000'000, 2'000'000, random);
   return kernel;
@@ -59,7 +64,7 @@ std::int64_t expected(Kernel& kernel, const ChannelImage& in, int x, int y, int 
         sum += std::int64_t{kernel.at(row, column, k, to)} * in.at(from_x, from_y)[k];
     }
   if (kernel.shift > 0) sum += std::int64_t{1} << (kernel.shift - 1);
-  return std::clamp<std::int64_t>(sum >> kernel.shift, 0, kMostValue);
+  return std::clamp<std::int64_t>(sum >> kernel.shift, kernel.least, kMostValue);
 }
 
 void expect_as_defined(Kernel& kernel, const ChannelImage& in) {
@@ -80,10 +85,11 @@ void expect_as_defined(Kernel& kernel, const ChannelImage& in) {
 TEST(SmallConvolution, every_variant_is_as_defined_at_every_width_and_leaves_the_rim_zero) {
   core::Random random = core::random_stream(/*seed=*/1, "test.small_convolution");
   for (int width = 1; width <= 13; ++width)
-    for (const int channels : {2, 16, 32}) {
-      Kernel kernel = random_kernel(channels, 12, random);
-      expect_as_defined(kernel, random_image(width, 1 + width % 4, channels, random));
-    }
+    for (const int channels : {2, 16, 32})
+      for (const int least : {0, -kMostValue}) {
+        Kernel kernel = random_kernel(channels, 12, least, random);
+        expect_as_defined(kernel, random_image(width, 1 + width % 4, channels, random));
+      }
 }
 
 TEST(SmallConvolution, one_with_a_single_weight_copies_a_channel_from_a_neighbour) {
@@ -131,7 +137,7 @@ TEST(SmallConvolution, rounds_halves_upwards_and_keeps_to_its_range) {
 
 TEST(SmallConvolution, writes_over_what_was_there) {
   core::Random random = core::random_stream(/*seed=*/2, "test.small_convolution");
-  const Kernel kernel = random_kernel(16, 10, random);
+  const Kernel kernel = random_kernel(16, 10, 0, random);
   const ChannelImage in = random_image(9, 5, 16, random);
   ChannelImage fresh(9, 5, kConvolutionOut), used = random_image(9, 5, kConvolutionOut, random);
   convolve(kernel.convolution(), in, fresh);
@@ -143,8 +149,14 @@ TEST(SmallConvolution, writes_over_what_was_there) {
 // What EsiNet hands to convolve() must hold for any weights that a training comes up with.
 TEST(SmallConvolution, no_sum_of_the_trained_layers_can_leave_32_bits) {
   constexpr std::int64_t kMostFeature = 2 * kFeatureOne;  // 2 v / most
-  std::int64_t most_value = kMostFeature;                 // afterwards of a hidden value
-  for (const Convolution& layer : esi_net_layers()) {
+  ASSERT_EQ(esi_net_layers().size(), 3);
+  ASSERT_EQ(esi_net_shading().size(), 2 * kShadingLevels - kShadeLevel);
+  std::vector<Convolution> layers(esi_net_layers().begin(), esi_net_layers().end());
+  layers.insert(layers.end(), esi_net_shading().begin(), esi_net_shading().end());
+  std::int64_t most_value = kMostFeature;
+  for (const Convolution& layer : layers) {
+    // On the way up layers see what has been added to what went down.
+    if (layer.least < 0) most_value = 2 * kMostValue;
     ASSERT_EQ(layer.weights.size(), static_cast<std::size_t>(9 * layer.in * kConvolutionOut));
     ASSERT_EQ(layer.bias.size(), static_cast<std::size_t>(kConvolutionOut));
     for (std::size_t to = 0; to < kConvolutionOut; ++to) {
@@ -158,6 +170,7 @@ TEST(SmallConvolution, no_sum_of_the_trained_layers_can_leave_32_bits) {
   }
   for (std::size_t i = 0; i < 4; ++i) {
     std::int64_t most = std::abs(std::int64_t{esi_net_output_bias()[i]});
+    most += std::int64_t{kMostValue} << kEsiNetWeightBits;  // the shade
     for (std::size_t k = 0; k < kEsiNetOutputIn; ++k)
       most += (k < kConvolutionOut ? kMostValue : kMostFeature) *
               std::abs(std::int64_t{esi_net_output()[i * kEsiNetOutputIn + k]});

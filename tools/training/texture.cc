@@ -61,6 +61,18 @@ void draw_shape(cv::Mat& scene, core::Random& random) {
   }
 }
 
+/// Fine noise on every surface, as of asphalt, wood or cloth.
+void add_grain(cv::Mat& scene, core::Random& random) {
+  const double amplitude_log = log_between(0.01, 0.2, random), size_px = log_between(1, 6, random);
+  cv::Mat grain(scene.size(), CV_32F);
+  cv::RNG numbers(random());
+  numbers.fill(grain, cv::RNG::NORMAL, 0, 1);
+  cv::GaussianBlur(grain, grain, {0, 0}, size_px);
+  // The blur leaves 1 / (2 sqrt(pi) size) of white noise's deviation.
+  cv::exp(grain * (amplitude_log * 2 * std::sqrt(std::numbers::pi) * size_px), grain);
+  cv::min(scene.mul(grain), 0.98, scene);
+}
+
 /// A square of random cells in a black frame, most with a white margin.
 void draw_grid(cv::Mat& scene, core::Random& random) {
   const int cells = whole_between(5, 10, random);
@@ -103,7 +115,10 @@ int whole_between(int least, int greatest, core::Random& random) {
 core::Image<float> draw_texture(int side_px, core::Random& random) {
   cv::Mat scene = draw_ground(2 * side_px, random);
   for (int n = whole_between(10, 220, random); n > 0; --n) draw_shape(scene, random);
-  for (int n = whole_between(2, 26, random); n > 0; --n) draw_grid(scene, random);
+  const bool full_of_grids = random() % 2 != 0;
+  for (int n = whole_between(2, full_of_grids ? 160 : 26, random); n > 0; --n)
+    draw_grid(scene, random);
+  if (random() % 2 != 0) add_grain(scene, random);
   core::Image<float> texture({side_px, side_px});
   cv::Mat pixels(side_px, side_px, CV_32F, texture.pixels().data());
   cv::resize(scene, pixels, pixels.size(), 0, 0, cv::INTER_AREA);

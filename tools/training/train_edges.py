@@ -1,0 +1,105 @@
+#!/usr/bin/env python3
+"""Trains esi_net's edges on the samples of make_samples and writes esi/esi_net_weights.cc.
+
+    make_samples 1 300 DIR                            # some 15 minutes on one core
+    python3 train_edges.py DIR esi/esi_net_weights.cc # some 20 minutes
+
+The shading written with them is nothing: train_shading.py comes next. Needs Debian's
+python3-torch and python3-numpy. The same samples, seed and build of torch give the same weights.
+"""
+
+import argparse
+
+import numpy as np
+import torch
+from torch import nn
+from torch.nn import functional as F
+
+import samples
+import weights_file
+from network import Edges, Shading
+from training import prepare, train, warmed_up
+
+CROP = 96  # of a patch: light and shade further off are the shading's
+WINDOW = torch.tensor(np.exp(-((np.arange(11) - 5) ** 2) / (2 * 1.5**2)), dtype=torch.float32)
+WINDOW /= WINDOW.sum()
+
+
+def blur(x):
+    return F.conv2d(F.conv2d(x, WINDOW.view(1, 1, 1, -1)), WINDOW.view(1, 1, -1, 1))
+
+
+def slopes(x):
+    return x[:, :, :, 1:] - x[:, :, :, :-1], x[:, :, 1:] - x[:, :, :-1]
+
+
+def loss(picture, truth):
+    """1 - SSIM, plus how far grey and its slopes are off: against the truth in deviations."""
+    mean = truth.mean((2, 3), keepdim=True)
+    deviation = truth.std((2, 3), unbiased=False, keepdim=True) / mean
+    x = (picture - picture.mean((2, 3), keepdim=True)) / 4
+    y = (truth / mean - 1) / deviation.clamp(min=0.15) / 4
+    mx, my = blur(x), blur(y)
+    xx, yy, xy = blur(x * x) - mx * mx, blur(y * y) - my * my, blur(x * y) - mx * my
+    c1, c2 = 1e-4, 9e-4
+    ssim = (2 * mx * my + c1) * (2 * xy + c2) / ((mx * mx + my * my + c1) * (xx + yy + c2))
+    edges = sum((a - b).abs().mean() for a, b in zip(slopes(x), slopes(y)))
+    # The mean over a patch is free, but not to wander off the middle grey.
+    anchor = 0.1 * picture.mean((1, 2, 3)).square().mean()
+    return 1 - ssim.mean() + 4 * (x - y).abs().mean() + 8 * edges + anchor
+
+
+def cut(features, truth, left, top):
+    """CROP pixels each way, from a block's corner on."""
+    return (torch.from_numpy(features[top:top + CROP // 2, left:left + CROP // 2].astype(np.float32)),
+            torch.from_numpy(truth[:, 2 * top:2 * top + CROP, 2 * left:2 * left + CROP].copy()))
+
+
+def draw_batch(patches, count, random):
+    chosen = [patches[i] for i in random.integers(0, len(patches), count)]
+    cuts = [cut(features[i], truth[i], *random.integers(0, (samples.PATCH - CROP) // 2 + 1, 2))
+            for features, truth, i in chosen]
+    return samples.turned_any_way(*map(torch.stack, zip(*cuts)), random)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("samples", help="the folder that make_samples filled")
+    parser.add_argument("out", help="the C++ file to write")
+    parser.add_argument("--steps", type=int, default=18000)
+    parser.add_argument("--batch", type=int, default=8)
+    parser.add_argument("--rate", type=float, default=2e-3)
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+
+    random = prepare(arguments.seed)
+    known, judged_by = [], []
+    for seed, features, truth in samples.scenes(arguments.samples):
+        to = judged_by if samples.kept_back(seed) else known
+        to += [(features, truth, i) for i in range(len(truth))]
+    if not known or not judged_by:
+        raise SystemExit(f"{arguments.samples}: too few scenes, wanted 10 or more")
+    edges, shading = Edges(), Shading()
+    for parameter in shading.shade.parameters():
+        nn.init.zeros_(parameter)
+    judged = [draw_batch(judged_by, arguments.batch, random) for _ in range(30)]
+
+    def judge():
+        with torch.no_grad():
+            return np.mean([loss(edges(x)[2], y).item() for x, y in judged])
+
+    def draw_loss():
+        x, y = draw_batch(known, arguments.batch, random)
+        return loss(edges(x)[2], y)
+
+    def rate_at(step):  # a cosine down to nearly nothing
+        return warmed_up(arguments.rate, step) * (
+            0.505 + 0.495 * np.cos(np.pi * step / arguments.steps))
+
+    train(edges, draw_loss, arguments.steps, rate_at,
+          lambda: f"{judge():.4f} on what is kept back")
+    weights_file.write(edges, shading, arguments.out)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,115 @@
+#!/usr/bin/env python3
+"""Trains esi_net's shading on the samples of make_samples, its edges kept as they are.
+
+    make_samples 1 800 DIR                              # some 40 minutes on one core
+    python3 train_shading.py DIR esi/esi_net_weights.cc # some 20 minutes
+
+Reads the edges from the file and writes it anew, with the mean of what the shading was in the
+last half of the steps: on recordings that does better than any one of them. Needs Debian's
+python3-torch and python3-numpy. The same samples, seed and build of torch give the same weights.
+"""
+
+import argparse
+import time
+
+import numpy as np
+import torch
+from torch.nn import functional as F
+from torch.optim.swa_utils import AveragedModel
+
+import samples
+import weights_file
+from network import Edges, Shading, halved
+from training import prepare, train, warmed_up
+
+VIEWS = 3  # of each patch, turned this way and that
+# Of the shade that fits the samples best: most of what real frames gain by it, and hardly any of
+# what fine texture loses (docs/decisions/0009).
+SHARE = 0.6
+
+
+def seen_of(edges, features, truth):
+    """Of some patches: what the shading sees (n, 32, 48, 48), and by how much the edges' picture
+    is too dark (n, 1, 48, 48), in deviations of the truth, the mean being free."""
+    second, third, picture = edges(features)
+    mean = truth.mean((2, 3), keepdim=True)
+    deviation = truth.std((2, 3), unbiased=False, keepdim=True).clamp(min=0.15)
+    lacks = (truth - mean) / deviation - (picture - picture.mean((2, 3), keepdim=True))
+    # What is finer than 4 px no shade can mend: left out, the loss is less by a constant.
+    return halved(torch.cat([second, third], 1)), F.avg_pool2d(lacks, 4)
+
+
+def see(edges, folder, random):
+    """All patches, VIEWS times, as halves of a float; and the seeds that they are of."""
+    seen, lacking, seeds, start, said_s = [], [], [], time.time(), 0.0
+    scenes = list(samples.scenes(folder))
+    for done, (seed, features, truth) in enumerate(scenes):
+        for first in VIEWS * list(range(0, len(truth), 8)):
+            batch = slice(first, first + 8)
+            x, y = samples.turned_any_way(torch.from_numpy(features[batch].astype(np.float32)),
+                                          torch.from_numpy(truth[batch].copy()), random)
+            with torch.no_grad():
+                hidden, lacks = seen_of(edges, x, y)
+            seen.append(hidden.half())
+            lacking.append(lacks.half())
+            seeds += [seed] * len(lacks)
+        passed_s = time.time() - start
+        if passed_s - said_s > 10:
+            said_s = passed_s
+            left_s = passed_s / (done + 1) * (len(scenes) - done - 1)
+            print(f"{done + 1} of {len(scenes)} scenes looked at, {left_s:.0f} s left", flush=True)
+    return torch.cat(seen), torch.cat(lacking), np.array(seeds)
+
+
+def loss(shade, lacks):
+    """Mean square of what is still lacking; the mean over a patch is free, but not to wander."""
+    mean = shade.mean((2, 3), keepdim=True)
+    return (shade - mean - lacks).square().mean() + 0.001 * mean.square().mean()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("samples", help="the folder that make_samples filled")
+    parser.add_argument("weights", help="the C++ file to read the edges from, and to write")
+    parser.add_argument("--steps", type=int, default=16000)
+    parser.add_argument("--batch", type=int, default=24)
+    parser.add_argument("--rate", type=float, default=2e-3)
+    parser.add_argument("--seed", type=int, default=1)
+    arguments = parser.parse_args()
+
+    random = prepare(arguments.seed)
+    edges, shading = Edges(), Shading()
+    weights_file.read_edges(edges, arguments.weights)
+    seen, lacking, seeds = see(edges, arguments.samples, random)
+    kept_back = samples.kept_back(seeds)
+    known, judged_by = np.flatnonzero(~kept_back), np.flatnonzero(kept_back)
+    if len(known) == 0 or len(judged_by) == 0:
+        raise SystemExit(f"{arguments.samples}: too few scenes, wanted 10 or more")
+    judged_by = random.choice(judged_by, min(600, len(judged_by)), replace=False)
+
+    def loss_of(chosen):
+        return loss(shading(seen[chosen].float()), lacking[chosen].float())
+
+    def judge():
+        with torch.no_grad():
+            return np.mean([loss_of(part).item() for part in np.array_split(judged_by, 24)])
+
+    print(f"{len(known)} views to learn from, {len(judged_by)} to judge by; "
+          f"without a shade {lacking[judged_by].float().square().mean():.4f}", flush=True)
+    average = AveragedModel(shading)
+
+    def after_step(step):
+        if step > arguments.steps // 2:
+            average.update_parameters(shading)
+
+    train(shading, lambda: loss_of(random.choice(known, arguments.batch)), arguments.steps,
+          lambda step: warmed_up(arguments.rate, step),
+          lambda: f"{judge():.4f} on what is kept back", after_step)
+    with torch.no_grad():
+        for parameter in average.module.shade.parameters():
+            parameter.mul_(SHARE)
+    weights_file.write(edges, average.module, arguments.weights)
+
+
+if __name__ == "__main__":
+    main()
