@@ -29,7 +29,7 @@ namespace nightjar::training {
 namespace {
 
 constexpr core::Resolution kSensor{346, 260};
-constexpr int kPatch_px = 192;  // the network sees some 60 px far
+constexpr int kPatch_px = 192;  // the shading sees more than 100 px far
 constexpr int kPatchesAPicture = 2;
 constexpr int kTexture_px = 1600;
 constexpr double kTextureScale_px_m = 247;  // a pixel of the texture is one of the sensor at 1.2 m
@@ -148,11 +148,10 @@ void make_samples(std::uint64_t seed, const std::string& folder) {
   const sim::CarryMotion motion = kMotions[random() % kMotions.size()];
   const FlatScene scene(draw_texture(kTexture_px, random), log_between(0.6, 1.6, random), motion,
                         seed);
-  // Short ones, too: recordings can be, and more scenes are seen in the same time.
-  const double duration_s = log_between(0.02, motion == sim::CarryMotion::hover ? 5 : 2.5, random);
-  const core::Time end = core::from_seconds(duration_s);
-  core::Time next_sample =
-      core::from_seconds(log_between(0.012, std::min(0.5, duration_s), random));
+  const core::Time end =
+      core::from_seconds(between(1, motion == sim::CarryMotion::hover ? 5 : 2.5, random));
+  // Some first pictures come early: recordings can be short.
+  core::Time next_sample = core::from_seconds(log_between(0.012, 0.5, random));
 
   sim::SimulatedCamera camera(sensor.config, kSensor, sensor.illuminance_lux, seed);
   esi::EsiNet net({}, kSensor);

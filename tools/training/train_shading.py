@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Trains esi_net's shading on the samples of make_samples, its edges kept as they are.
 
-    make_samples 1 800 DIR                              # some 40 minutes on one core
+    make_samples 1 420 DIR                              # some 30 minutes on one core
     python3 train_shading.py DIR esi/esi_net_weights.cc # some 20 minutes
 
 Reads the edges from the file and writes it anew, with the mean of what the shading was in the
