@@ -102,6 +102,10 @@ TEST(ChannelScaling, smooth_doubling_is_as_by_hand_and_goes_on_beyond_the_edges)
     EXPECT_EQ(out(1, y), 40);  // three quarters of the nearer one, a quarter of the other
     EXPECT_EQ(out(2, y), 120);
   }
+  in(1, 0) = 3;
+  double_smoothly(in, out);
+  EXPECT_EQ(out(1, 0), 1);  // 0.75, rounded
+  EXPECT_EQ(out(2, 0), 2);  // 2.25
 }
 
 TEST(ChannelScaling, smooth_doubling_keeps_a_slope) {
