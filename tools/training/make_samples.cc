@@ -3,7 +3,7 @@
 //   make_samples FIRST_SEED LAST_SEED DIR
 //
 // For each seed DIR/SEED.features and DIR/SEED.truth: patches one after the other, as
-// tools/training/train.py reads them. Features are what EsiNet's network sees, int16,
+// tools/training/samples.py reads them. Features are what EsiNet's network sees, int16,
 // [96][96][32]; the truth is luminance over the patch's mean, float, [192][192].
 
 #include <algorithm>

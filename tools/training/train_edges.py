@@ -8,8 +8,6 @@ The shading written with them is nothing: train_shading.py comes next. Needs Deb
 python3-torch and python3-numpy. The same samples, seed and build of torch give the same weights.
 """
 
-import argparse
-
 import numpy as np
 import torch
 from torch import nn
@@ -18,7 +16,7 @@ from torch.nn import functional as F
 import samples
 import weights_file
 from network import Edges, Shading
-from training import prepare, train, warmed_up
+from training import check_enough, parse_arguments, prepare, train, warmed_up
 
 CROP = 96  # of a patch: light and shade further off are the shading's
 WINDOW = torch.tensor(np.exp(-((np.arange(11) - 5) ** 2) / (2 * 1.5**2)), dtype=torch.float32)
@@ -63,22 +61,13 @@ def draw_batch(patches, count, random):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("samples", help="the folder that make_samples filled")
-    parser.add_argument("out", help="the C++ file to write")
-    parser.add_argument("--steps", type=int, default=18000)
-    parser.add_argument("--batch", type=int, default=8)
-    parser.add_argument("--rate", type=float, default=2e-3)
-    parser.add_argument("--seed", type=int, default=1)
-    arguments = parser.parse_args()
-
+    arguments = parse_arguments(__doc__, "write", steps=18000, batch=8, rate=2e-3)
     random = prepare(arguments.seed)
     known, judged_by = [], []
     for seed, features, truth in samples.scenes(arguments.samples):
         to = judged_by if samples.kept_back(seed) else known
         to += [(features, truth, i) for i in range(len(truth))]
-    if not known or not judged_by:
-        raise SystemExit(f"{arguments.samples}: too few scenes, wanted 10 or more")
+    check_enough(arguments.samples, known, judged_by)
     edges, shading = Edges(), Shading()
     for parameter in shading.shade.parameters():
         nn.init.zeros_(parameter)
@@ -98,7 +87,7 @@ def main():
 
     train(edges, draw_loss, arguments.steps, rate_at,
           lambda: f"{judge():.4f} on what is kept back")
-    weights_file.write(edges, shading, arguments.out)
+    weights_file.write(edges, shading, arguments.weights)
 
 
 if __name__ == "__main__":

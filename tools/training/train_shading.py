@@ -9,7 +9,6 @@ last half of the steps: on recordings that does better than any one of them. Nee
 python3-torch and python3-numpy. The same samples, seed and build of torch give the same weights.
 """
 
-import argparse
 import time
 
 import numpy as np
@@ -20,7 +19,7 @@ from torch.optim.swa_utils import AveragedModel
 import samples
 import weights_file
 from network import Edges, Shading, halved
-from training import prepare, train, warmed_up
+from training import check_enough, parse_arguments, prepare, train, warmed_up
 
 VIEWS = 3  # of each patch, turned this way and that
 # Of the shade that fits the samples best: most of what real frames gain by it, and hardly any of
@@ -68,23 +67,15 @@ def loss(shade, lacks):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("samples", help="the folder that make_samples filled")
-    parser.add_argument("weights", help="the C++ file to read the edges from, and to write")
-    parser.add_argument("--steps", type=int, default=16000)
-    parser.add_argument("--batch", type=int, default=24)
-    parser.add_argument("--rate", type=float, default=2e-3)
-    parser.add_argument("--seed", type=int, default=1)
-    arguments = parser.parse_args()
-
+    arguments = parse_arguments(__doc__, "read the edges from, and to write", steps=16000,
+                                batch=24, rate=2e-3)
     random = prepare(arguments.seed)
     edges, shading = Edges(), Shading()
     weights_file.read_edges(edges, arguments.weights)
     seen, lacking, seeds = see(edges, arguments.samples, random)
     kept_back = samples.kept_back(seeds)
     known, judged_by = np.flatnonzero(~kept_back), np.flatnonzero(kept_back)
-    if len(known) == 0 or len(judged_by) == 0:
-        raise SystemExit(f"{arguments.samples}: too few scenes, wanted 10 or more")
+    check_enough(arguments.samples, known, judged_by)
     judged_by = random.choice(judged_by, min(600, len(judged_by)), replace=False)
 
     def loss_of(chosen):

@@ -1,5 +1,6 @@
 """What both trainings do alike."""
 
+import argparse
 import time
 
 import numpy as np
@@ -31,6 +32,23 @@ def train(network, draw_loss, steps, rate_at, report, after_step=lambda step: No
             print(f"step {step} of {steps}: loss {total / 500:.4f}, {report()}, {left_s:.0f} s left",
                   flush=True)
             total = 0.0
+
+
+def parse_arguments(description, weights, steps, batch, rate):
+    """What both programs take; `weights` says what is done to the C++ file."""
+    parser = argparse.ArgumentParser(description=description.split("\n")[0])
+    parser.add_argument("samples", help="the folder that make_samples filled")
+    parser.add_argument("weights", help=f"the C++ file to {weights}")
+    parser.add_argument("--steps", type=int, default=steps)
+    parser.add_argument("--batch", type=int, default=batch)
+    parser.add_argument("--rate", type=float, default=rate)
+    parser.add_argument("--seed", type=int, default=1)
+    return parser.parse_args()
+
+
+def check_enough(folder, known, judged_by):
+    if len(known) == 0 or len(judged_by) == 0:
+        raise SystemExit(f"{folder}: too few scenes, wanted 10 in a row or more")
 
 
 def prepare(seed):
