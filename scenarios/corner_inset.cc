@@ -5,7 +5,7 @@
 namespace nightjar::scenarios {
 
 double corner_inset_px(esi::Method method) {
-  if (method == esi::Method::esi_net) return -0.2;  // its edges are soft, on white's side most
+  if (method == esi::Method::esi_net) return 0;  // its edges lie where they are
   return tracker::MeasurementConfig{}.corner_inset_px;
 }
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Trains esi_net's edges on the samples of make_samples and writes esi/esi_net_weights.cc.
 
-    make_samples 1 300 DIR                            # some 15 minutes on one core
-    python3 train_edges.py DIR esi/esi_net_weights.cc # some 20 minutes
+    make_samples 1 450 DIR                            # some 25 minutes on one core
+    python3 train_edges.py DIR esi/esi_net_weights.cc # some 45 minutes
 
 The shading written with them is nothing: train_shading.py comes next. Needs Debian's
 python3-torch and python3-numpy. The same samples, seed and build of torch give the same weights.
@@ -16,11 +16,14 @@ from torch.nn import functional as F
 import samples
 import weights_file
 from network import Edges, Shading
-from training import check_enough, parse_arguments, prepare, train, warmed_up
+from training import check_enough, parse_arguments, prepare, shown, train
 
 CROP = 96  # of a patch: light and shade further off are the shading's
 WINDOW = torch.tensor(np.exp(-((np.arange(11) - 5) ** 2) / (2 * 1.5**2)), dtype=torch.float32)
 WINDOW /= WINDOW.sum()
+# What contrast weighs beside flat places: a tag is a small part of a picture, and with its white
+# cells only half as far from black as they are, which costs the mean hardly anything, is not read.
+CONTRAST = 24
 
 
 def blur(x):
@@ -32,24 +35,28 @@ def slopes(x):
 
 
 def loss(picture, truth):
-    """1 - SSIM, plus how far grey and its slopes are off: against the truth in deviations."""
-    mean = truth.mean((2, 3), keepdim=True)
-    deviation = truth.std((2, 3), unbiased=False, keepdim=True) / mean
+    """1 - SSIM, plus how far grey and its slopes are off. Each place weighs by the truth's contrast
+    in SSIM's window around it."""
     x = (picture - picture.mean((2, 3), keepdim=True)) / 4
-    y = (truth / mean - 1) / deviation.clamp(min=0.15) / 4
+    y = shown(truth) / 4
     mx, my = blur(x), blur(y)
     xx, yy, xy = blur(x * x) - mx * mx, blur(y * y) - my * my, blur(x * y) - mx * my
     c1, c2 = 1e-4, 9e-4
     ssim = (2 * mx * my + c1) * (2 * xy + c2) / ((mx * mx + my * my + c1) * (xx + yy + c2))
-    edges = sum((a - b).abs().mean() for a, b in zip(slopes(x), slopes(y)))
+    weight = (1 + CONTRAST * yy.clamp(min=0).sqrt()) / (1 + CONTRAST / 10)  # 1 or so on the average
+    everywhere = F.pad(weight, 4 * (len(WINDOW) // 2,), mode="replicate")
+    edges = sum(((a - b).abs() * everywhere[..., :a.shape[2], :a.shape[3]]).mean()
+                for a, b in zip(slopes(x), slopes(y)))
     # The mean over a patch is free, but not to wander off the middle grey.
     anchor = 0.1 * picture.mean((1, 2, 3)).square().mean()
-    return 1 - ssim.mean() + 4 * (x - y).abs().mean() + 8 * edges + anchor
+    return (((1 - ssim) * weight).mean() + 4 * ((x - y).abs() * everywhere).mean() + 8 * edges +
+            anchor)
 
 
 def cut(features, truth, left, top):
     """CROP pixels each way, from a block's corner on."""
-    return (torch.from_numpy(features[top:top + CROP // 2, left:left + CROP // 2].astype(np.float32)),
+    blocks = features[top:top + CROP // 2, left:left + CROP // 2]
+    return (torch.from_numpy(blocks.astype(np.float32)),
             torch.from_numpy(truth[:, 2 * top:2 * top + CROP, 2 * left:2 * left + CROP].copy()))
 
 
@@ -61,7 +68,7 @@ def draw_batch(patches, count, random):
 
 
 def main():
-    arguments = parse_arguments(__doc__, "write", steps=18000, batch=8, rate=2e-3)
+    arguments = parse_arguments(__doc__, "write", steps=40000, batch=8, rate=2e-3)
     random = prepare(arguments.seed)
     known, judged_by = [], []
     for seed, features, truth in samples.scenes(arguments.samples):
@@ -71,23 +78,18 @@ def main():
     edges, shading = Edges(), Shading()
     for parameter in shading.shade.parameters():
         nn.init.zeros_(parameter)
-    judged = [draw_batch(judged_by, arguments.batch, random) for _ in range(30)]
+    judged = [draw_batch(judged_by, arguments.batch, random) for _ in range(60)]
 
-    def judge():
+    def judge(network):
         with torch.no_grad():
-            return np.mean([loss(edges(x)[2], y).item() for x, y in judged])
+            return np.mean([loss(network(x)[2], y).item() for x, y in judged])
 
     def draw_loss():
         x, y = draw_batch(known, arguments.batch, random)
         return loss(edges(x)[2], y)
 
-    def rate_at(step):  # a cosine down to nearly nothing
-        return warmed_up(arguments.rate, step) * (
-            0.505 + 0.495 * np.cos(np.pi * step / arguments.steps))
-
-    train(edges, draw_loss, arguments.steps, rate_at,
-          lambda: f"{judge():.4f} on what is kept back")
-    weights_file.write(edges, shading, arguments.weights)
+    trained = train(edges, draw_loss, judge, arguments)
+    weights_file.write(trained, shading, arguments.weights)
 
 
 if __name__ == "__main__":

@@ -14,12 +14,11 @@ import time
 import numpy as np
 import torch
 from torch.nn import functional as F
-from torch.optim.swa_utils import AveragedModel
 
 import samples
 import weights_file
 from network import Edges, Shading, halved
-from training import check_enough, parse_arguments, prepare, train, warmed_up
+from training import check_enough, parse_arguments, prepare, shown, train
 
 VIEWS = 3  # of each patch, turned this way and that
 # Of the shade that fits the samples best: most of what real frames gain by it, and hardly any of
@@ -29,11 +28,9 @@ SHARE = 0.6
 
 def seen_of(edges, features, truth):
     """Of some patches: what the shading sees (n, 32, 48, 48), and by how much the edges' picture
-    is too dark (n, 1, 48, 48), in deviations of the truth, the mean being free."""
+    is too dark (n, 1, 48, 48), the mean being free."""
     second, third, picture = edges(features)
-    mean = truth.mean((2, 3), keepdim=True)
-    deviation = truth.std((2, 3), unbiased=False, keepdim=True).clamp(min=0.15)
-    lacks = (truth - mean) / deviation - (picture - picture.mean((2, 3), keepdim=True))
+    lacks = shown(truth) - (picture - picture.mean((2, 3), keepdim=True))
     # What is finer than 4 px no shade can mend: left out, the loss is less by a constant.
     return halved(torch.cat([second, third], 1)), F.avg_pool2d(lacks, 4)
 
@@ -78,28 +75,22 @@ def main():
     check_enough(arguments.samples, known, judged_by)
     judged_by = random.choice(judged_by, min(600, len(judged_by)), replace=False)
 
-    def loss_of(chosen):
-        return loss(shading(seen[chosen].float()), lacking[chosen].float())
+    def loss_of(network, chosen):
+        return loss(network(seen[chosen].float()), lacking[chosen].float())
 
-    def judge():
+    def judge(network):
         with torch.no_grad():
-            return np.mean([loss_of(part).item() for part in np.array_split(judged_by, 24)])
+            return np.mean([loss_of(network, part).item()
+                            for part in np.array_split(judged_by, 24)])
 
     print(f"{len(known)} views to learn from, {len(judged_by)} to judge by; "
           f"without a shade {lacking[judged_by].float().square().mean():.4f}", flush=True)
-    average = AveragedModel(shading)
-
-    def after_step(step):
-        if step > arguments.steps // 2:
-            average.update_parameters(shading)
-
-    train(shading, lambda: loss_of(random.choice(known, arguments.batch)), arguments.steps,
-          lambda step: warmed_up(arguments.rate, step),
-          lambda: f"{judge():.4f} on what is kept back", after_step)
+    trained = train(shading, lambda: loss_of(shading, random.choice(known, arguments.batch)), judge,
+                    arguments)
     with torch.no_grad():
-        for parameter in average.module.shade.parameters():
+        for parameter in trained.shade.parameters():
             parameter.mul_(SHARE)
-    weights_file.write(edges, average.module, arguments.weights)
+    weights_file.write(edges, trained, arguments.weights)
 
 
 if __name__ == "__main__":

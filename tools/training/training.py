@@ -6,32 +6,47 @@ import time
 import numpy as np
 import torch
 from torch import nn
+from torch.optim.swa_utils import AveragedModel
+
+WHITE = 3  # deviations that a picture's white comes near to
 
 
-def warmed_up(rate, step):
-    return rate * min(1, step / 200)
+def shown(luminance):
+    """What a picture is to show (n, 1, h, w): luminance's deviations, squeezed above the mean, of
+    mean 0. Events count its logarithm; in luminance itself a white cell of a tag that comes out a
+    little too dark is nearer to black than to the white margin, and is read as black."""
+    mean = luminance.mean((2, 3), keepdim=True)
+    deviation = luminance.std((2, 3), unbiased=False, keepdim=True) / mean
+    y = (luminance / mean - 1) / deviation.clamp(min=0.15)
+    y = y / (1 + y.clamp(min=0) / WHITE)
+    return y - y.mean((2, 3), keepdim=True)
 
 
-def train(network, draw_loss, steps, rate_at, report, after_step=lambda step: None):
-    """Adam. `draw_loss()` gives a batch's loss, `rate_at(step)` the rate, and `report()` what to
-    say of the network every 500 steps."""
+def train(network, draw_loss, judge, arguments):
+    """Adam at one rate. `draw_loss()` gives a batch's loss, `judge(network)` what to say of a
+    network every 500 steps. Returns the mean of what the network was in the last half of the
+    steps, which does better than any one of them."""
     optimiser = torch.optim.Adam(network.parameters())
+    average = AveragedModel(network)
     start, total = time.time(), 0.0
-    for step in range(1, steps + 1):
+    for step in range(1, arguments.steps + 1):
         for group in optimiser.param_groups:
-            group["lr"] = rate_at(step)
+            group["lr"] = arguments.rate * min(1, step / 200)
         value = draw_loss()
         optimiser.zero_grad()
         value.backward()
         nn.utils.clip_grad_norm_(network.parameters(), 1.0)
         optimiser.step()
-        after_step(step)
+        if step > arguments.steps // 2:
+            average.update_parameters(network)
         total += value.item()
         if step % 500 == 0:
-            left_s = (time.time() - start) / step * (steps - step)
-            print(f"step {step} of {steps}: loss {total / 500:.4f}, {report()}, {left_s:.0f} s left",
-                  flush=True)
+            judged = judge(average.module if step > arguments.steps // 2 else network)
+            left_s = (time.time() - start) / step * (arguments.steps - step)
+            print(f"step {step} of {arguments.steps}: loss {total / 500:.4f}, {judged:.4f} on what "
+                  f"is kept back, {left_s:.0f} s left", flush=True)
             total = 0.0
+    return average.module
 
 
 def parse_arguments(description, weights, steps, batch, rate):
