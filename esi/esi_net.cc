@@ -18,8 +18,10 @@ float levels_per_unit(const EsiNetConfig& config) {
 
 EsiNet::EsiNet(const EsiNetConfig& config, core::Resolution size)
     : Reconstructor(size),
+      use_frames_(config.use_frames),
       shading_(halved(size.width_px), halved(size.height_px)),
-      output_(esi_net_output(), esi_net_output_bias(), levels_per_unit(config)) {
+      output_(esi_net_output(), esi_net_output_bias(), levels_per_unit(config)),
+      frame_blend_(size, config.levels_per_sigma) {
   const int width = halved(size.width_px), height = halved(size.height_px);
   features_ = ChannelImage(width, height, 4 * kPixelFeatures);
   first_ = second_ = ChannelImage(width, height, kConvolutionOut);
@@ -28,6 +30,7 @@ EsiNet::EsiNet(const EsiNetConfig& config, core::Resolution size)
 
 void EsiNet::clear(core::Time start) {
   cells_.assign(static_cast<std::size_t>(size().pixels()), MemoryCell{{}, low_us(start)});
+  frame_blend_.clear();
 }
 
 void EsiNet::limit_ages(std::uint32_t now_us, std::uint32_t most_us) {
@@ -40,6 +43,10 @@ void EsiNet::integrate(std::span<const PackedEvent> events) {
 }
 
 void EsiNet::integrate_run(EventRun& run) { best_memory_variant().integrate(run, cells_.data()); }
+
+void EsiNet::take_frame(const core::ApsFrame& frame) {
+  if (use_frames_) frame_blend_.take(frame);
+}
 
 const ChannelImage& EsiNet::features(core::Time t) {
   quantise_features(low_us(t));
@@ -63,6 +70,7 @@ void EsiNet::draw(core::Time t, core::Image<std::uint8_t>& gray) {
   convolve(layers[1], first_, second_);
   convolve(layers[2], second_, third);
   output_.write(third, features_, shading_.of(second_, third), gray);
+  frame_blend_.blend(cells_, t, gray);
 }
 
 }  // namespace nightjar::esi

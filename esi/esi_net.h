@@ -4,6 +4,7 @@
 
 #include "esi/block_output.h"
 #include "esi/esi_net_config.h"
+#include "esi/frame_blend.h"
 #include "esi/memory_cell.h"
 #include "esi/reconstructor.h"
 #include "esi/shading.h"
@@ -18,7 +19,8 @@ namespace nightjar::esi {
 /// picture and the noise, a short one loses both. Here each pixel has several, and the
 /// network sees from all of them, the neighbours' too, what is signal: edges. How bright the
 /// surfaces between them are, Shading adds. All in whole numbers: every processor gives the same
-/// picture.
+/// picture. Where little happens, and there are frames of the active pixels, FrameBlend shows
+/// those.
 class EsiNet final : public Reconstructor {
  public:
   /// Throws std::invalid_argument for a config out of range.
@@ -32,17 +34,20 @@ class EsiNet final : public Reconstructor {
  private:
   void integrate(std::span<const PackedEvent> events) override;
   void integrate_run(EventRun& run) override;
+  void take_frame(const core::ApsFrame& frame) override;
   void draw(core::Time t, core::Image<std::uint8_t>& gray) override;
   void clear(core::Time start) override;
   void limit_ages(std::uint32_t now_us, std::uint32_t most_us) override;
 
   void quantise_features(std::uint32_t now_us);
 
+  bool use_frames_;
   std::vector<MemoryCell> cells_;
   ChannelImage features_;
   ChannelImage first_, second_;
   Shading shading_;
   BlockOutput output_;
+  FrameBlend frame_blend_;
 };
 
 }  // namespace nightjar::esi

@@ -14,10 +14,6 @@ namespace nightjar::esi {
 
 bool is_network(Method method) { return method == Method::firenet || method == Method::e2vid; }
 
-bool uses_frames(Method method) {
-  return method == Method::complementary_filter || method == Method::edi || method == Method::fedi;
-}
-
 std::unique_ptr<Reconstructor> make_reconstructor(const ReconstructorConfig& config,
                                                   core::Resolution size) {
   switch (config.method) {

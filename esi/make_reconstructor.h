@@ -11,10 +11,6 @@ namespace nightjar::esi {
 /// builds: it needs OpenCV, this library does not.
 bool is_network(Method method);
 
-/// Whether the method does more with frames of the active pixels than check them; the
-/// complementary filter can be told not to.
-bool uses_frames(Method method);
-
 /// Builds config.method for a sensor of this size. Throws std::invalid_argument for a
 /// config out of range, naming field, value and range, and for a network.
 std::unique_ptr<Reconstructor> make_reconstructor(const ReconstructorConfig& config,

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "esi/make_reconstructor.h"
 #include "scenarios/choice_text.h"
 
 namespace nightjar::scenarios {
@@ -22,7 +21,8 @@ bool starts_from_frames(esi::Method method) {
 bool is_given_frames(const esi::ReconstructorConfig& config) {
   if (config.method == esi::Method::complementary_filter)
     return config.complementary_filter.use_frames;
-  return esi::uses_frames(config.method);
+  if (config.method == esi::Method::esi_net) return config.esi_net.use_frames;
+  return starts_from_frames(config.method);
 }
 
 }  // namespace nightjar::scenarios

@@ -11,6 +11,7 @@
 #include "esi/make_network.h"
 #include "esi/make_reconstructor.h"
 #include "scenarios/choice_text.h"
+#include "scenarios/method_needs.h"
 #include "scenarios/reconstructor_feed.h"
 #include "tracker/tag_detector.h"
 
@@ -30,7 +31,7 @@ class Reconstructing {
         take_(take),
         reconstructor_(esi::make_any_reconstructor(options.reconstructor, recording.size())),
         feed_(*reconstructor_),
-        uses_frames_(esi::uses_frames(options.reconstructor.method)) {
+        uses_frames_(is_given_frames(options.reconstructor)) {
     if (options.detector) detector_.emplace(*options.detector);
   }
 

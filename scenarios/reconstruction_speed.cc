@@ -8,6 +8,7 @@
 #include "esi/make_network.h"
 #include "esi/make_reconstructor.h"
 #include "scenarios/choice_text.h"
+#include "scenarios/method_needs.h"
 
 namespace nightjar::scenarios {
 namespace {
@@ -29,7 +30,7 @@ class MethodSubject : public SpeedSubject {
  public:
   MethodSubject(const esi::ReconstructorConfig& config, core::Resolution size)
       : reconstructor_(esi::make_any_reconstructor(config, size)),
-        uses_frames_(esi::uses_frames(config.method)) {}
+        uses_frames_(is_given_frames(config)) {}
 
   void restart() override { reconstructor_->reset(); }
   void take(std::span<const esi::PackedEvent> events) override { reconstructor_->process(events); }

@@ -10,6 +10,7 @@
 #include "esi/make_network.h"
 #include "esi/quality.h"
 #include "scenarios/choice_text.h"
+#include "scenarios/reconstructor_feed.h"
 #include "scenarios/tag_score.h"
 #include "sim/carried_camera.h"
 #include "tracker/tag_detector.h"
@@ -26,7 +27,7 @@ class Runner {
  public:
   Runner(const TrialEntry& entry, core::Resolution size, sim::CarryMotion motion,
          double illuminance_lux, std::uint64_t seed)
-      : reconstructor_(esi::make_any_reconstructor(entry.config, size)) {
+      : reconstructor_(esi::make_any_reconstructor(entry.config, size)), feed_(*reconstructor_) {
     score_.method = entry.name;
     score_.motion = motion;
     score_.illuminance_lux = illuminance_lux;
@@ -34,8 +35,8 @@ class Runner {
   }
 
   void take(const sim::CarriedStep& step) {
-    reconstructor_->process(step.packet.events);
-    for (const core::ApsFrame& frame : step.frames) reconstructor_->add_frame(frame);
+    for (const core::ApsFrame& frame : step.frames) feed_.add_frame(frame);
+    feed_.advance(step.packet.events, step.packet.end);
     reconstructor_->render(step.packet.end, picture_);
   }
 
@@ -44,6 +45,7 @@ class Runner {
 
  private:
   std::unique_ptr<esi::Reconstructor> reconstructor_;
+  ReconstructorFeed feed_;
   core::Picture picture_;
   TrialScore score_;
 };

@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "esi/esi.h"
+#include "esi/quality.h"
 #include "tests/support/esi_net_reference.h"
 #include "tests/support/events.h"
+#include "tests/support/frames.h"
 #include "tests/support/poisson_events.h"
 
 namespace nightjar::esi {
@@ -59,6 +61,24 @@ TEST(EsiNet, shows_grey_levels_as_far_apart_as_it_is_told) {
     // 127.5 + 2 s for 127.5 + s, each rounded: off by half of one and twice a half.
     EXPECT_NEAR(two.pixels()[i] - 127.5, 2 * (one.pixels()[i] - 127.5), 1.5);
   }
+}
+
+TEST(EsiNet, shows_frames_where_nothing_happens_unless_told_not_to) {
+  constexpr core::Resolution kSize{64, 48};
+  core::ApsFrame frame = test::frame(kSize, 10ms, 20ms, 8, 50);
+  for (int y = 16; y < 32; ++y)
+    for (int x = 16; x < 48; ++x) frame.gray(x, y) = 150;
+  const auto shown = [&](bool use_frames, bool any_frame) {
+    EsiNet net({.use_frames = use_frames}, kSize);
+    if (any_frame) net.add_frame(frame);
+    return render(net, 30ms);
+  };
+  EXPECT_EQ(shown(false, true), shown(false, false));
+  EXPECT_EQ(shown(true, false), shown(false, false));
+  // Two levels, none cut off: the fit is exact but for rounding.
+  core::Image<std::uint8_t> reference(kSize);
+  std::ranges::copy(frame.gray.pixels(), reference.pixels().begin());
+  EXPECT_GT(compare(shown(true, true), reference).ssim, 0.999);
 }
 
 TEST(EsiNet, refuses_a_config_out_of_range) {

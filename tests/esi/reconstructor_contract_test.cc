@@ -163,26 +163,30 @@ TEST_P(ReconstructorContract, HoursWithoutEventsKeepItSound) {
 
 INSTANTIATE_TEST_SUITE_P(
     EveryVariant, ReconstructorContract,
-    testing::Values(
-        variant("esi", Method::esi),
-        variant("esi_power", Method::esi, [](auto& c) { c.esi.decay_power = 2.5; }),
-        variant("esi_decay_then_add", Method::esi,
-                [](auto& c) {
-                  c.esi.order = EsiOrder::decay_then_add;
-                  c.esi.decay_at_picture = true;
-                }),
-        variant("accumulator", Method::accumulator),
-        variant("accumulator_linear", Method::accumulator,
-                [](auto& c) { c.accumulator.decay = AccumulatorDecay::linear; }),
-        variant("accumulator_without_decay", Method::accumulator,
-                [](auto& c) { c.accumulator.decay = AccumulatorDecay::none; }),
-        variant("complementary_filter", Method::complementary_filter),
-        variant("complementary_filter_bilateral", Method::complementary_filter,
-                [](auto& c) { c.complementary_filter.filter = SpatialFilter::bilateral; }),
-        variant("high_pass_filter", Method::complementary_filter,
-                [](auto& c) { c.complementary_filter.use_frames = false; }),
-        variant("edi", Method::edi), variant("fedi", Method::fedi), variant("htac", Method::htac),
-        variant("esi_net", Method::esi_net), variant("firenet", Method::firenet)),
+    testing::Values(variant("esi", Method::esi),
+                    variant("esi_power", Method::esi, [](auto& c) { c.esi.decay_power = 2.5; }),
+                    variant("esi_decay_then_add", Method::esi,
+                            [](auto& c) {
+                              c.esi.order = EsiOrder::decay_then_add;
+                              c.esi.decay_at_picture = true;
+                            }),
+                    variant("accumulator", Method::accumulator),
+                    variant("accumulator_linear", Method::accumulator,
+                            [](auto& c) { c.accumulator.decay = AccumulatorDecay::linear; }),
+                    variant("accumulator_without_decay", Method::accumulator,
+                            [](auto& c) { c.accumulator.decay = AccumulatorDecay::none; }),
+                    variant("complementary_filter", Method::complementary_filter),
+                    variant("complementary_filter_bilateral", Method::complementary_filter,
+                            [](auto& c) {
+                              c.complementary_filter.filter = SpatialFilter::bilateral;
+                            }),
+                    variant("high_pass_filter", Method::complementary_filter,
+                            [](auto& c) { c.complementary_filter.use_frames = false; }),
+                    variant("edi", Method::edi), variant("fedi", Method::fedi),
+                    variant("htac", Method::htac), variant("esi_net", Method::esi_net),
+                    variant("esi_net_events_alone", Method::esi_net,
+                            [](auto& c) { c.esi_net.use_frames = false; }),
+                    variant("firenet", Method::firenet)),
     [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -30,7 +30,7 @@ esi::ReconstructorConfig any_config(FuzzedDataProvider& data) {
       data.PickValueInArray({esi::AccumulatorDecay::none, esi::AccumulatorDecay::exponential,
                              esi::AccumulatorDecay::linear, esi::AccumulatorDecay::step});
   config.accumulator.synchronous_decay = data.ConsumeBool();
-  config.complementary_filter.use_frames = data.ConsumeBool();
+  config.complementary_filter.use_frames = config.esi_net.use_frames = data.ConsumeBool();
   config.complementary_filter.cutoff_hz = data.ConsumeFloatingPointInRange(-0.1, 1000.0);
   config.complementary_filter.filter = data.PickValueInArray(
       {esi::SpatialFilter::none, esi::SpatialFilter::gaussian, esi::SpatialFilter::bilateral});

@@ -28,6 +28,10 @@ TEST(MethodNeeds, are_no_frames_where_a_method_is_told_to_do_without) {
   EXPECT_TRUE(is_given_frames(filter));
   filter.complementary_filter.use_frames = false;
   EXPECT_FALSE(is_given_frames(filter));
+  esi::ReconstructorConfig net = config(esi::Method::esi_net);
+  EXPECT_TRUE(is_given_frames(net));
+  net.esi_net.use_frames = false;
+  EXPECT_FALSE(is_given_frames(net));
 }
 
 }  // namespace

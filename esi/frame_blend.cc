@@ -1,0 +1,160 @@
+#include "esi/frame_blend.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "esi/best_instructions.h"
+#include "esi/fast_math.h"
+#include "esi/packed_event.h"
+#include "esi/reconstructor.h"
+
+namespace nightjar::esi {
+namespace {
+
+constexpr double kShareOfSigma = 0.75;
+constexpr double kLeastContrast = 0.15;
+constexpr double kMostNoise = 0.2;
+constexpr float kHalfShare = 0.25f;
+constexpr float kContrastLog = 0.15f;
+
+// Of MemoryCell::sum: the balance of ON and OFF of late, and what is above 0 from a pixel's first
+// event on.
+constexpr std::size_t kBalance = 3, kActivity = 6;
+static_assert(kPixelMemories[kBalance].moving && !kPixelMemories[kBalance].activity);
+static_assert(kPixelMemories[kActivity].moving && kPixelMemories[kActivity].activity);
+
+struct Moments {
+  double mean;
+  double variance;
+};
+
+// Sums of whole numbers, here and below: exact, in whatever order.
+Moments moments(const core::Image<std::uint16_t>& image) {
+  std::uint64_t sum = 0, squares = 0;
+  for (const std::uint16_t value : image.pixels()) {
+    sum += value;
+    squares += std::uint64_t{value} * value;
+  }
+  const auto count = static_cast<double>(image.pixels().size());
+  const double mean = static_cast<double>(sum) / count;
+  return {mean, std::max(static_cast<double>(squares) / count - mean * mean, 0.0)};
+}
+
+/// Half the mean square of the difference between pixels side by side, or one above the other.
+double noise_variance(const core::Image<std::uint16_t>& image) {
+  const int width = image.width(), height = image.height();
+  std::uint64_t squares = 0;
+  const auto add = [&](int a, int b) { squares += static_cast<std::uint64_t>((a - b) * (a - b)); };
+  for (int y = 0; y < height; ++y) {
+    for (int x = 1; x < width; ++x) add(image(x, y), image(x - 1, y));
+    if (y == 0) continue;
+    for (int x = 0; x < width; ++x) add(image(x, y), image(x, y - 1));
+  }
+  const int pairs = (width - 1) * height + width * (height - 1);
+  return static_cast<double>(squares) / (2.0 * std::max(pairs, 1));
+}
+
+}  // namespace
+
+FrameBlend::FrameBlend(core::Resolution size, double levels_per_sigma)
+    : levels_per_sigma_(levels_per_sigma),
+      gain_log2_(size),
+      busy_(size),
+      columns_(static_cast<std::size_t>(size.width_px + 2 * kReach_px)),
+      nearby_(static_cast<std::size_t>(size.width_px)) {}
+
+void FrameBlend::take(const core::ApsFrame& frame) {
+  frame_ = frame;
+  has_frame_ = true;
+  levels_.reset();
+}
+
+FrameBlend::Levels FrameBlend::find_levels() const {
+  const auto [mean, variance] = moments(frame_.gray);
+  if (!(noise_variance(frame_.gray) < kMostNoise * variance)) return {0, 0};
+  const double sigma = std::max(std::sqrt(variance), kLeastContrast * mean);
+  const double gain = kShareOfSigma * levels_per_sigma_ / sigma;
+  return {static_cast<float>(gain), static_cast<float>(gain * mean)};
+}
+
+void FrameBlend::look_at(std::span<const MemoryCell> cells, core::Time t) {
+  const std::uint32_t now_us = low_us(t);
+  const std::uint32_t open_us = low_us(std::max(t - frame_.exposure_begin, core::Time{}));
+  const MemoryCell* cell = cells.data();
+  float* gain_log2 = gain_log2_.pixels().data();
+  std::uint8_t* busy = busy_.pixels().data();
+  const std::size_t count = cells.size();
+  with_best_instructions([=]() __attribute__((always_inline)) {
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t age_us = now_us - cell[i].t_us;
+      const bool is_busy = (cell[i].sum[kActivity] > 0.0f) & (age_us <= open_us);
+      const float left = 1.0f - kPixelMemories[kBalance].rate_hz * 1e-6f * to_float(age_us);
+      const float balance = cell[i].sum[kBalance] * select(left > 0.0f, left, 0.0f);
+      gain_log2[i] = select(is_busy, kContrastLog * kLog2E * balance, 0.0f);
+      busy[i] = is_busy;
+    }
+  });
+}
+
+void FrameBlend::add_to_columns(int row, std::int16_t times) {
+  if (row < 0 || row >= busy_.height()) return;
+  const std::uint8_t* busy = &busy_(0, row);
+  std::int16_t* column = &columns_[kReach_px];
+  for (int x = 0; x < busy_.width(); ++x)
+    column[x] = static_cast<std::int16_t>(column[x] + times * busy[x]);
+}
+
+void FrameBlend::count_nearby() {
+  const std::int16_t* column = columns_.data();
+  std::int16_t* nearby = nearby_.data();
+  const std::size_t width = nearby_.size();
+  std::ranges::fill(nearby_, std::int16_t{0});
+  with_best_instructions([=]() __attribute__((always_inline)) {
+    for (std::size_t k = 0; k <= 2 * kReach_px; ++k)
+      for (std::size_t x = 0; x < width; ++x)
+        nearby[x] = static_cast<std::int16_t>(nearby[x] + column[x + k]);
+  });
+}
+
+void FrameBlend::blend_row(int y, core::Image<std::uint8_t>& gray) {
+  const int width = gray.width();
+  const int rows = std::min(y + kReach_px, gray.height() - 1) - std::max(y - kReach_px, 0) + 1;
+  const std::int16_t* nearby = nearby_.data();
+  const std::uint16_t* value = &frame_.gray(0, y);
+  const float* gain_log2 = &gain_log2_(0, y);
+  const Levels levels = *levels_;
+  std::uint8_t* out = &gray(0, y);
+  with_best_instructions([=]() __attribute__((always_inline)) {
+#pragma GCC ivdep
+    for (int x = 0; x < width; ++x) {
+      const int columns = std::min(x + kReach_px, width - 1) - std::max(x - kReach_px, 0) + 1;
+      const float share = static_cast<float>(nearby[x]) / static_cast<float>(rows * columns);
+      const float in_halves = share * (1.0f / kHalfShare);
+      const float weight = (1.0f - share * share) / (1.0f + in_halves * in_halves);
+      const float brightness = static_cast<float>(value[x]) * fast_exp2(gain_log2[x]);
+      const float shown = 127.5f + (levels.gain * brightness - levels.offset);
+      const auto events = static_cast<float>(out[x]);
+      out[x] = to_gray(events + weight * (bounded(shown, 0.0f, 255.0f) - events));
+    }
+  });
+}
+
+void FrameBlend::blend(std::span<const MemoryCell> cells, core::Time t,
+                       core::Image<std::uint8_t>& gray) {
+  constexpr core::Time kOldest{Reconstructor::kMostAge_us};
+  if (!has_frame_ || t - frame_.exposure_begin > kOldest) return;
+  if (!levels_) levels_ = find_levels();
+  if (levels_->gain == 0) return;
+  look_at(cells, t);
+  std::ranges::fill(columns_, std::int16_t{0});
+  for (int row = 0; row < kReach_px; ++row) add_to_columns(row, 1);
+  for (int y = 0; y < gray.height(); ++y) {
+    add_to_columns(y + kReach_px, 1);
+    add_to_columns(y - kReach_px - 1, -1);
+    count_nearby();
+    blend_row(y, gray);
+  }
+}
+
+}  // namespace nightjar::esi
