@@ -23,6 +23,12 @@ constexpr std::size_t kBalance = 3, kActivity = 6;
 static_assert(kPixelMemories[kBalance].moving && !kPixelMemories[kBalance].activity);
 static_assert(kPixelMemories[kActivity].moving && kPixelMemories[kActivity].activity);
 
+/// Of `size` pixels in line.
+int within_reach(int at, int size) {
+  return std::min(at + FrameBlend::kReach_px, size - 1) - std::max(at - FrameBlend::kReach_px, 0) +
+         1;
+}
+
 struct Moments {
   double mean;
   double variance;
@@ -61,7 +67,11 @@ FrameBlend::FrameBlend(core::Resolution size, double levels_per_sigma)
       gain_log2_(size),
       busy_(size),
       columns_(static_cast<std::size_t>(size.width_px + 2 * kReach_px)),
-      nearby_(static_cast<std::size_t>(size.width_px)) {}
+      nearby_(static_cast<std::size_t>(size.width_px)),
+      share_(size) {
+  for (int x = 0; x < size.width_px; ++x)
+    per_column_.push_back(1.0f / static_cast<float>(within_reach(x, size.width_px)));
+}
 
 void FrameBlend::take(const core::ApsFrame& frame) {
   frame_ = frame;
@@ -117,25 +127,43 @@ void FrameBlend::count_nearby() {
   });
 }
 
-void FrameBlend::blend_row(int y, core::Image<std::uint8_t>& gray) {
-  const int width = gray.width();
-  const int rows = std::min(y + kReach_px, gray.height() - 1) - std::max(y - kReach_px, 0) + 1;
-  const std::int16_t* nearby = nearby_.data();
-  const std::uint16_t* value = &frame_.gray(0, y);
-  const float* gain_log2 = &gain_log2_(0, y);
-  const Levels levels = *levels_;
-  std::uint8_t* out = &gray(0, y);
+void FrameBlend::find_shares() {
+  const int width = busy_.width(), height = busy_.height();
+  std::ranges::fill(columns_, std::int16_t{0});
+  for (int row = 0; row < kReach_px; ++row) add_to_columns(row, 1);
+  for (int y = 0; y < height; ++y) {
+    add_to_columns(y + kReach_px, 1);
+    add_to_columns(y - kReach_px - 1, -1);
+    count_nearby();
+    const float per_row = 1.0f / static_cast<float>(within_reach(y, height));
+    const float* per_column = per_column_.data();
+    const std::int16_t* nearby = nearby_.data();
+    float* share = &share_(0, y);
+    with_best_instructions([=]() __attribute__((always_inline)) {
+#pragma GCC ivdep
+      for (int x = 0; x < width; ++x)
+        share[x] = static_cast<float>(nearby[x]) * per_row * per_column[x];
+    });
+  }
+}
+
+/// All pixels in one loop: of a row's, many would be left over beside whole registers.
+void FrameBlend::blend_pixels(Levels levels, core::Image<std::uint8_t>& gray) const {
+  const float* shares = share_.pixels().data();
+  const float* gain_log2 = gain_log2_.pixels().data();
+  const std::uint16_t* value = frame_.gray.pixels().data();
+  std::uint8_t* out = gray.pixels().data();
+  const std::size_t count = gray.pixels().size();
   with_best_instructions([=]() __attribute__((always_inline)) {
 #pragma GCC ivdep
-    for (int x = 0; x < width; ++x) {
-      const int columns = std::min(x + kReach_px, width - 1) - std::max(x - kReach_px, 0) + 1;
-      const float share = static_cast<float>(nearby[x]) / static_cast<float>(rows * columns);
+    for (std::size_t i = 0; i < count; ++i) {
+      const float share = shares[i];
       const float in_halves = share * (1.0f / kHalfShare);
       const float weight = (1.0f - share * share) / (1.0f + in_halves * in_halves);
-      const float brightness = static_cast<float>(value[x]) * fast_exp2(gain_log2[x]);
+      const float brightness = static_cast<float>(value[i]) * fast_exp2(gain_log2[i]);
       const float shown = 127.5f + (levels.gain * brightness - levels.offset);
-      const auto events = static_cast<float>(out[x]);
-      out[x] = to_gray(events + weight * (bounded(shown, 0.0f, 255.0f) - events));
+      const auto events = static_cast<float>(out[i]);
+      out[i] = to_gray(events + weight * (bounded(shown, 0.0f, 255.0f) - events));
     }
   });
 }
@@ -147,14 +175,8 @@ void FrameBlend::blend(std::span<const MemoryCell> cells, core::Time t,
   if (!levels_) levels_ = find_levels();
   if (levels_->gain == 0) return;
   look_at(cells, t);
-  std::ranges::fill(columns_, std::int16_t{0});
-  for (int row = 0; row < kReach_px; ++row) add_to_columns(row, 1);
-  for (int y = 0; y < gray.height(); ++y) {
-    add_to_columns(y + kReach_px, 1);
-    add_to_columns(y - kReach_px - 1, -1);
-    count_nearby();
-    blend_row(y, gray);
-  }
+  find_shares();
+  blend_pixels(*levels_, gray);
 }
 
 }  // namespace nightjar::esi

@@ -57,7 +57,8 @@ class FrameBlend {
   void look_at(std::span<const MemoryCell> cells, core::Time t);
   void add_to_columns(int row, std::int16_t times);
   void count_nearby();
-  void blend_row(int y, core::Image<std::uint8_t>& gray);
+  void find_shares();
+  void blend_pixels(Levels levels, core::Image<std::uint8_t>& gray) const;
 
   double levels_per_sigma_;
   bool has_frame_ = false;
@@ -68,6 +69,8 @@ class FrameBlend {
   /// Busy pixels by column, of the rows within reach; at either end kReach_px columns with none.
   std::vector<std::int16_t> columns_;
   std::vector<std::int16_t> nearby_;  ///< A row's busy pixels within reach.
+  std::vector<float> per_column_;     ///< 1 / how many columns are within reach.
+  core::Image<float> share_;          ///< Of busy pixels within reach.
 };
 
 }  // namespace nightjar::esi

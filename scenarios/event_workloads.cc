@@ -58,10 +58,14 @@ class Place {
   double speed_px_s_;
 };
 
+/// Stripes and some noise: what is all noise, a method may leave out.
 std::vector<core::ApsFrame> make_frames(core::Time end, core::Random& random) {
+  constexpr int kStripe_px = 43;
   core::ApsFrame frame{{}, {}, 10, core::Image<std::uint16_t>(kSensor)};
-  for (std::uint16_t& pixel : frame.gray.pixels())
-    pixel = static_cast<std::uint16_t>(random() % 1024);
+  for (int y = 0; y < kSensor.height_px; ++y)
+    for (int x = 0; x < kSensor.width_px; ++x)
+      frame.gray(x, y) =
+          static_cast<std::uint16_t>((x / kStripe_px % 2 == 0 ? 200 : 700) + random() % 64);
   std::vector<core::ApsFrame> frames;
   for (core::Time t = kFramePeriod; t <= end; t += kFramePeriod) {
     frame.exposure_begin = t - kExposure;
