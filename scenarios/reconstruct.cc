@@ -9,7 +9,6 @@
 
 #include "core/config_check.h"
 #include "esi/make_network.h"
-#include "esi/make_reconstructor.h"
 #include "scenarios/choice_text.h"
 #include "scenarios/method_needs.h"
 #include "scenarios/reconstructor_feed.h"

@@ -6,7 +6,6 @@
 #include "esi/esi_reference.h"
 #include "esi/leaky_sum.h"
 #include "esi/make_network.h"
-#include "esi/make_reconstructor.h"
 #include "scenarios/choice_text.h"
 #include "scenarios/method_needs.h"
 
