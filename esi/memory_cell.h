@@ -22,11 +22,11 @@ struct Memory {
 
 inline constexpr int kMemories = 7;
 inline constexpr std::array<Memory, kMemories> kPixelMemories{{{0.5f, 5.0f, false, false},
-                                                               {0.5f, 2.5f, false, false},
                                                                {0.5f, 1.5f, false, false},
-                                                               {15.0f, 8.0f, true, false},
                                                                {1.0f, 16.0f, true, false},
+                                                               {15.0f, 8.0f, true, false},
                                                                {50.0f, 8.0f, true, false},
+                                                               {150.0f, 8.0f, true, false},
                                                                {2.0f, 32.0f, true, true}}};
 
 /// A pixel's sums and the time of its last event: half a cache line.

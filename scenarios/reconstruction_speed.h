@@ -16,8 +16,11 @@ class SpeedSubject {
   virtual ~SpeedSubject() = default;
   virtual void restart() = 0;
   virtual void take(std::span<const esi::PackedEvent> events) = 0;
-  virtual void take(const core::ApsFrame& frame) = 0;
   virtual void draw(core::Time t) = 0;
+
+  /// Whether take_frame() does anything.
+  virtual bool takes_frames() const { return false; }
+  virtual void take_frame(const core::ApsFrame&) {}
 };
 
 /// A reconstructor, checks and all, handed packed events.
@@ -38,8 +41,9 @@ std::unique_ptr<SpeedSubject> bound_subject(core::Resolution size);
 
 /// Events a second, in CPU time of this thread, through a workload from its start packet by
 /// packet, for about `most_s` or up to its end, whichever is first; with a picture after
-/// every packet or without any. Handing over frames counts, to the methods that use them; the
-/// others would only check them, which is no work on events.
+/// every packet or without any. Taking frames counts, for the methods that use them; the others
+/// would only check them, which is no work on events. A frame is handed over as a camera does it,
+/// which has just written it: the writing is the camera's and does not count.
 double measure_rate_hz(SpeedSubject& subject, const EventWorkload& workload, bool pictures,
                        double most_s);
 

@@ -131,9 +131,10 @@ TEST(MemoryCell, takes_two_events_as_worked_out_by_hand) {
   integrate(best_memory_variant(), std::vector<PackedEvent>{{100'000, 1}, {200'000, 0}}, &cell);
   EXPECT_EQ(cell.t_us, 200'000u);
   EXPECT_FLOAT_EQ(cell.sum[0], (0.95f - 1) * 0.95f);  // as ESI, 0.5 Hz
-  EXPECT_FLOAT_EQ(cell.sum[2], (0.95f - 1) * 0.95f);  // the same: 1.5 events are not reached
+  EXPECT_FLOAT_EQ(cell.sum[1], (0.95f - 1) * 0.95f);  // the same: 1.5 events are not reached
+  EXPECT_FLOAT_EQ(cell.sum[2], 0.9f - 1);             // moving, 1 Hz
   EXPECT_FLOAT_EQ(cell.sum[3], -1.0f);                // moving, 15 Hz: all gone
-  EXPECT_FLOAT_EQ(cell.sum[4], 0.9f - 1);             // moving, 1 Hz
+  EXPECT_FLOAT_EQ(cell.sum[5], -1.0f);                // moving, 150 Hz: gone after 7 ms
   EXPECT_FLOAT_EQ(cell.sum[6], 0.8f + 1);             // activity, 2 Hz
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "scenarios/reconstruction_speed_text.h"
@@ -24,10 +25,16 @@ class CountingSubject final : public SpeedSubject {
  public:
   void restart() override { events = pictures = frames = 0; }
   void take(std::span<const esi::PackedEvent> more) override { events += more.size(); }
-  void take(const core::ApsFrame&) override { ++frames; }
   void draw(core::Time) override { ++pictures; }
+  bool takes_frames() const override { return wants_frames; }
+  void take_frame(const core::ApsFrame& frame) override {
+    ++frames;
+    last_frame = frame;
+  }
 
+  bool wants_frames = true;
   std::size_t events = 0, pictures = 0, frames = 0;
+  core::ApsFrame last_frame;
 };
 
 TEST(ReconstructionSpeedTest, a_subject_gets_every_event_and_a_picture_after_every_packet) {
@@ -36,9 +43,21 @@ TEST(ReconstructionSpeedTest, a_subject_gets_every_event_and_a_picture_after_eve
   EXPECT_GT(measure_rate_hz(subject, w, true, 1e9), 0);
   EXPECT_EQ(subject.events, w.events.size());
   EXPECT_EQ(subject.pictures, w.packet_ends.size());
+  ASSERT_GT(w.frames.size(), 0u);
   EXPECT_EQ(subject.frames, w.frames.size());
+  EXPECT_EQ(subject.last_frame.exposure_end, w.frames.back().exposure_end);
+  EXPECT_TRUE(std::ranges::equal(subject.last_frame.gray.pixels(), w.frames.back().gray.pixels()));
   measure_rate_hz(subject, w, false, 1e9);
   EXPECT_EQ(subject.pictures, 0u);
+}
+
+TEST(ReconstructionSpeedTest, a_subject_gets_no_frame_it_does_not_take) {
+  CountingSubject subject;
+  subject.wants_frames = false;
+  measure_rate_hz(subject, make_workload(EventPattern::uniform, 1e6, 100'000, /*seed=*/1), false,
+                  1e9);
+  EXPECT_EQ(subject.events, 100'000u);
+  EXPECT_EQ(subject.frames, 0u);
 }
 
 TEST(ReconstructionSpeedTest, a_slow_subject_is_stopped) {
