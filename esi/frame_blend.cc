@@ -21,6 +21,7 @@ constexpr float kContrastLog = 0.15f;
 // event on.
 constexpr std::size_t kBalance = 3, kActivity = 6;
 static_assert(kPixelMemories[kBalance].moving && !kPixelMemories[kBalance].activity);
+static_assert(kPixelMemories[kBalance].rate_hz == 15.0f);
 static_assert(kPixelMemories[kActivity].moving && kPixelMemories[kActivity].activity);
 
 /// Of `size` pixels in line.
