@@ -123,7 +123,7 @@ void ComplementaryFilter::bring_up_to(std::uint32_t now_us) {
   }
 }
 
-void ComplementaryFilter::take_frame(const core::ApsFrame& frame) {
+void ComplementaryFilter::take_frame(core::ApsFrame&& frame) {
   if (!config_.use_frames) return;
   const core::Time previous =
       frame_is_ahead_ ? last() + core::Time(frame_us_ - low_us(last())) : last();

@@ -138,7 +138,7 @@ double DoubleIntegral::sharpness_at(double contrast_log) {
   return sharpness(latent_, still_, rows);
 }
 
-void DoubleIntegral::take_frame(const core::ApsFrame& frame) {
+void DoubleIntegral::take_frame(core::ApsFrame&& frame) {
   const Exposure exposure = find_exposure(frame);
   count_events(exposure);
   const auto log2 = log_brightness(frame.bits);

@@ -77,7 +77,7 @@ class DoubleIntegral : public Reconstructor {
 
  private:
   void integrate(std::span<const PackedEvent> events) override;
-  void take_frame(const core::ApsFrame& frame) override;
+  void take_frame(core::ApsFrame&& frame) override;
   void draw(core::Time t, core::Image<std::uint8_t>& gray) override;
   void limit_ages(std::uint32_t now_us, std::uint32_t most_us) override;
 

@@ -1,6 +1,7 @@
 #include "esi/esi_net.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "esi/channel_scaling.h"
 #include "esi/esi_net_weights.h"
@@ -44,8 +45,8 @@ void EsiNet::integrate(std::span<const PackedEvent> events) {
 
 void EsiNet::integrate_run(EventRun& run) { best_memory_variant().integrate(run, cells_.data()); }
 
-void EsiNet::take_frame(const core::ApsFrame& frame) {
-  if (use_frames_) frame_blend_.take(frame);
+void EsiNet::take_frame(core::ApsFrame&& frame) {
+  if (use_frames_) frame_blend_.take(std::move(frame));
 }
 
 const ChannelImage& EsiNet::features(core::Time t) {

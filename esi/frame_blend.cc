@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "esi/best_instructions.h"
 #include "esi/fast_math.h"
@@ -74,8 +75,8 @@ FrameBlend::FrameBlend(core::Resolution size, double levels_per_sigma)
     per_column_.push_back(1.0f / static_cast<float>(within_reach(x, size.width_px)));
 }
 
-void FrameBlend::take(const core::ApsFrame& frame) {
-  frame_ = frame;
+void FrameBlend::take(core::ApsFrame frame) {
+  frame_ = std::move(frame);
   has_frame_ = true;
   levels_.reset();
 }

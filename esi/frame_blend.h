@@ -41,7 +41,7 @@ class FrameBlend {
   void clear() { has_frame_ = false; }
 
   /// Takes the place of the frame before. As Reconstructor::add_frame() lets it pass.
-  void take(const core::ApsFrame& frame);
+  void take(core::ApsFrame frame);
 
   /// Blends the frame into `gray`, the events' picture at `t`, not before the last event. Not one
   /// that began more than 17.9 minutes ago. The same bits on every processor.

@@ -4,8 +4,10 @@
 #include <array>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "core/config_check.h"
+#include "esi/best_instructions.h"
 #include "esi/prefetch.h"
 
 namespace nightjar::esi {
@@ -43,15 +45,15 @@ void check_time(const char* what, core::Time t) {
 
 /// Those that any value has: found sooner than the greatest value.
 unsigned any_bits(std::span<const std::uint16_t> values) {
-  constexpr std::size_t kLine = 32;
-  unsigned bits = 0;
-  for (; !values.empty(); values = values.subspan(std::min(values.size(), kLine))) {
-    prefetch_ahead(values.data());
+  const std::uint16_t* value = values.data();
+  const std::size_t count = values.size();
+  std::uint16_t bits = 0;
+  std::uint16_t* const found = &bits;
+  with_best_instructions([=]() __attribute__((always_inline)) {
     std::uint16_t together = 0;
-    for (const std::uint16_t value : values.first(std::min(values.size(), kLine)))
-      together |= value;
-    bits |= together;
-  }
+    for (std::size_t i = 0; i < count; ++i) together |= value[i];
+    *found = together;
+  });
   return bits;
 }
 
@@ -170,10 +172,11 @@ void Reconstructor::advance_to(core::Time t) {
   }
 }
 
-void Reconstructor::add_frame(const core::ApsFrame& frame) {
+void Reconstructor::add_frame(core::ApsFrame frame) {
   check_frame(frame, size_, frame_begin_);
-  take_frame(frame);
-  frame_begin_ = frame.exposure_begin;
+  const core::Time begin = frame.exposure_begin;
+  take_frame(std::move(frame));
+  frame_begin_ = begin;
 }
 
 void Reconstructor::render(core::Time t, core::Picture& picture) {

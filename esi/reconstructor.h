@@ -46,8 +46,8 @@ class Reconstructor {
   /// check it. Hand it over once the events up to its end have been taken: it acts from
   /// then on. Throws std::invalid_argument for another size than the sensor's, an
   /// exposure that does not end after it begins, bits other than 8 or 10, a value beyond
-  /// them, or a frame that begins before its predecessor does.
-  void add_frame(const core::ApsFrame& frame);
+  /// them, or a frame that begins before its predecessor does. Moved in, it need not be copied.
+  void add_frame(core::ApsFrame frame);
 
   /// The picture at `t`. Throws std::invalid_argument when `t` lies before the last event.
   /// Two calls with no event between give, for the same `t`, the same picture.
@@ -66,7 +66,8 @@ class Reconstructor {
   /// as it comes to them.
   virtual void integrate_run(EventRun& run);
 
-  virtual void take_frame(const core::ApsFrame&) {}
+  /// To keep, or to look at.
+  virtual void take_frame(core::ApsFrame&&) {}
 
   /// Fills `gray`, which has the sensor's size. `t` is at most kMostAge_us after last().
   virtual void draw(core::Time t, core::Image<std::uint8_t>& gray) = 0;

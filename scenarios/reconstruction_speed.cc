@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <utility>
 
 #include "esi/esi_reference.h"
 #include "esi/leaky_sum.h"
@@ -35,7 +36,7 @@ class MethodSubject : public SpeedSubject {
   void take(std::span<const esi::PackedEvent> events) override { reconstructor_->process(events); }
   void draw(core::Time t) override { reconstructor_->render(t, picture_); }
   bool takes_frames() const override { return uses_frames_; }
-  void take_frame(const core::ApsFrame& frame) override { reconstructor_->add_frame(frame); }
+  void take_frame(core::ApsFrame frame) override { reconstructor_->add_frame(std::move(frame)); }
 
  protected:
   std::unique_ptr<esi::Reconstructor> reconstructor_;
@@ -123,9 +124,9 @@ class Walk {
   /// the subject's work.
   void hand_over(const core::ApsFrame& frame) {
     const double begin_s = cpu_s();
-    written_ = frame;
+    core::ApsFrame written = frame;
     camera_s_ += cpu_s() - begin_s;
-    subject_.take_frame(written_);
+    subject_.take_frame(std::move(written));
   }
 
   SpeedSubject& subject_;
@@ -133,7 +134,6 @@ class Walk {
   double begin_s_ = 0, camera_s_ = 0;
   std::size_t taken_ = 0;
   std::size_t frame_ = 0;
-  core::ApsFrame written_;
 };
 
 struct Named {

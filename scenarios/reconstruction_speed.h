@@ -20,7 +20,7 @@ class SpeedSubject {
 
   /// Whether take_frame() does anything.
   virtual bool takes_frames() const { return false; }
-  virtual void take_frame(const core::ApsFrame&) {}
+  virtual void take_frame(core::ApsFrame) {}
 };
 
 /// A reconstructor, checks and all, handed packed events.

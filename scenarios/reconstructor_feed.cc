@@ -28,14 +28,14 @@ void ReconstructorFeed::advance(std::span<const core::Event> events, core::Time 
     const auto before = static_cast<std::size_t>(later - events.begin());
     reconstructor_.process(events.first(before));
     events = events.subspan(before);
-    hand_over(frames_.front());
+    hand_over(std::move(frames_.front()));
   }
   reconstructor_.process(events);
 }
 
-void ReconstructorFeed::hand_over(const core::ApsFrame& frame) {
+void ReconstructorFeed::hand_over(core::ApsFrame&& frame) {
   try {
-    reconstructor_.add_frame(frame);
+    reconstructor_.add_frame(std::move(frame));
     ++frames_taken_;
   } catch (const std::invalid_argument& error) {
     if (frames_refused_++ == 0) first_refusal_ = error.what();

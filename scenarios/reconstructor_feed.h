@@ -33,7 +33,7 @@ class ReconstructorFeed {
   const std::string& first_refusal() const { return first_refusal_; }
 
  private:
-  void hand_over(const core::ApsFrame& frame);
+  void hand_over(core::ApsFrame&& frame);
 
   esi::Reconstructor& reconstructor_;
   std::deque<core::ApsFrame> frames_;

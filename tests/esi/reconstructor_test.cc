@@ -30,7 +30,7 @@ class Notes final : public Reconstructor {
   void integrate(std::span<const PackedEvent> more) override {
     events.insert(events.end(), more.begin(), more.end());
   }
-  void take_frame(const core::ApsFrame&) override { ++frames; }
+  void take_frame(core::ApsFrame&&) override { ++frames; }
   void draw(core::Time t, core::Image<std::uint8_t>&) override { drawn_at = t; }
   void clear(core::Time at) override { start = at; }
   void limit_ages(std::uint32_t now_us, std::uint32_t most_us) override {

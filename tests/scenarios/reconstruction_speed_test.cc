@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "scenarios/reconstruction_speed_text.h"
 
@@ -27,9 +28,9 @@ class CountingSubject final : public SpeedSubject {
   void take(std::span<const esi::PackedEvent> more) override { events += more.size(); }
   void draw(core::Time) override { ++pictures; }
   bool takes_frames() const override { return wants_frames; }
-  void take_frame(const core::ApsFrame& frame) override {
+  void take_frame(core::ApsFrame frame) override {
     ++frames;
-    last_frame = frame;
+    last_frame = std::move(frame);
   }
 
   bool wants_frames = true;

@@ -24,7 +24,7 @@ class Diary : public esi::Reconstructor {
   void integrate(std::span<const esi::PackedEvent> events) override {
     for (const auto& e : events) text.append("e").append(std::to_string(e.t_us / 1000)).append(" ");
   }
-  void take_frame(const core::ApsFrame& frame) override {
+  void take_frame(core::ApsFrame&& frame) override {
     text.append("f").append(std::to_string(frame.exposure_end / 1ms)).append(" ");
   }
   void draw(core::Time, core::Image<std::uint8_t>&) override {}
