@@ -12,10 +12,10 @@
 
 namespace nightjar::esi {
 
-BlockOutput::BlockOutput(std::span<const std::int16_t> weights,
-                         std::span<const std::int32_t, kPixels> bias, float levels)
-    : weights_(2 * weights.size()), levels_(levels) {
+void BlockOutput::set_weights(std::span<const std::int16_t> weights,
+                              std::span<const std::int32_t, kPixels> bias) {
   assert(weights.size() % (2 * kPixels) == 0);
+  weights_.resize(2 * weights.size());
   std::ranges::copy(bias, bias_.begin());
   const std::size_t values = weights.size() / kPixels;
   for (std::size_t i = 0; i < kPixels; ++i)

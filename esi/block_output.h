@@ -16,11 +16,14 @@ class BlockOutput {
  public:
   static constexpr int kPixels = 4;
 
+  /// A pixel's sum is its bias, its weights times the values and its block's shade, and its level
+  /// clamp(127.5 + levels * sum, 0, 255), rounded to the nearest.
+  explicit BlockOutput(float levels) : levels_(levels) {}
+
   /// kPixels rows of equally many weights, an even number, for the values of a block, the
-  /// hidden ones first. A pixel's sum is its bias, its weights times the values and its block's
-  /// shade, and its level clamp(127.5 + levels * sum, 0, 255), rounded to the nearest.
-  BlockOutput(std::span<const std::int16_t> weights, std::span<const std::int32_t, kPixels> bias,
-              float levels);
+  /// hidden ones first.
+  void set_weights(std::span<const std::int16_t> weights,
+                   std::span<const std::int32_t, kPixels> bias);
 
   /// All three of one size; `gray` has twice their sides, or one pixel less at the right or the
   /// bottom. The same on every processor. The caller sees to it that no sum exceeds 32 bits.
@@ -43,7 +46,7 @@ class BlockOutput {
 
   /// [pairs of values][2 times the same][kPixels][2 of a pair]: a pair's, side by side.
   std::vector<std::int16_t> weights_;
-  std::array<std::int32_t, kPixels> bias_;
+  std::array<std::int32_t, kPixels> bias_{};
   float levels_;
 };
 

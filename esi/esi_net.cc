@@ -21,7 +21,7 @@ EsiNet::EsiNet(const EsiNetConfig& config, core::Resolution size)
     : Reconstructor(size),
       use_frames_(config.use_frames),
       shading_(halved(size.width_px), halved(size.height_px)),
-      output_(esi_net_output(), esi_net_output_bias(), levels_per_unit(config)),
+      output_(levels_per_unit(config)),
       frame_blend_(size, config.levels_per_sigma) {
   const int width = halved(size.width_px), height = halved(size.height_px);
   features_ = ChannelImage(width, height, 4 * kPixelFeatures);
@@ -65,11 +65,12 @@ void EsiNet::quantise_features(std::uint32_t now_us) {
 
 void EsiNet::draw(core::Time t, core::Image<std::uint8_t>& gray) {
   quantise_features(low_us(t));
-  const auto layers = esi_net_layers();
+  const EdgeWeights& edges = edges_.mix(second_share(features_, esi_net_gate()));
   ChannelImage& third = first_;  // the first one's values are needed no longer then
-  convolve(layers[0], features_, first_);
-  convolve(layers[1], first_, second_);
-  convolve(layers[2], second_, third);
+  convolve(edges.layers[0], features_, first_);
+  convolve(edges.layers[1], first_, second_);
+  convolve(edges.layers[2], second_, third);
+  output_.set_weights(edges.output, edges.output_bias);
   output_.write(third, features_, shading_.of(second_, third), gray);
   frame_blend_.blend(cells_, t, gray);
 }

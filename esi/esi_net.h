@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "esi/block_output.h"
+#include "esi/edge_mixture.h"
 #include "esi/esi_net_config.h"
 #include "esi/frame_blend.h"
 #include "esi/memory_cell.h"
@@ -44,6 +45,7 @@ class EsiNet final : public Reconstructor {
   bool use_frames_;
   std::vector<MemoryCell> cells_;
   ChannelImage features_;
+  EdgeMixture edges_;
   ChannelImage first_, second_;
   Shading shading_;
   BlockOutput output_;

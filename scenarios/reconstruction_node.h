@@ -12,8 +12,9 @@
 namespace nightjar::scenarios {
 
 /// Event packets and frames of the active pixels in, a picture at the end of each packet
-/// out; the first packet begins with an empty one. A frame acts with the packet that its exposure ends in, or the next after it came.
-/// Acts within Bus::dispatch() and knows neither who sends nor who listens.
+/// out; the first packet begins with an empty one. A frame acts with the packet that its exposure
+/// ends in, or the next after it came. Acts within Bus::dispatch() and knows neither who sends nor
+/// who listens.
 class ReconstructionNode {
  public:
   /// Throws std::invalid_argument as esi::make_any_reconstructor() does.

@@ -20,7 +20,8 @@ void expect_own_weights(int feature_count, core::Resolution size, core::Random& 
   std::array<std::int32_t, 4> bias;
   for (auto& w : weights) w = static_cast<std::int16_t>(random() % 2001 - 1000);
   for (auto& b : bias) b = static_cast<std::int32_t>(random() % 2'000'001 - 1'000'000);
-  const BlockOutput output(weights, bias, kLevels);
+  BlockOutput output(kLevels);
+  output.set_weights(weights, bias);
   ChannelImage hidden((size.width_px + 1) / 2, (size.height_px + 1) / 2, kHidden);
   ChannelImage features(hidden.width(), hidden.height(), feature_count);
   for (ChannelImage* image : {&hidden, &features})
@@ -58,7 +59,8 @@ TEST(BlockOutput, keeps_to_8_bits) {
   const std::array<std::int16_t, 16> weights{1000,  0, 0, 0, 0, 1000, 0, 0,
                                              -1000, 0, 0, 0, 0, 0,    0, 0};
   const std::array<std::int32_t, 4> bias{0, 0, 0, 100};
-  const BlockOutput output(weights, bias, 1.0f);
+  BlockOutput output(1.0f);
+  output.set_weights(weights, bias);
   ChannelImage hidden(1, 1, 2);
   const ChannelImage features(1, 1, 2);
   hidden.at(0, 0)[0] = kMostValue;

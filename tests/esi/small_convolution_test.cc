@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/random.h"
+#include "esi/edge_mixture.h"
 #include "esi/esi_net_weights.h"
 
 namespace nightjar::esi {
@@ -147,35 +148,48 @@ TEST(SmallConvolution, writes_over_what_was_there) {
 }
 
 // What EsiNet hands to convolve() must hold for any weights that a training comes up with.
-TEST(SmallConvolution, no_sum_of_the_trained_layers_can_leave_32_bits) {
-  constexpr std::int64_t kMostFeature = 2 * kFeatureOne;  // 2 v / most
-  ASSERT_EQ(esi_net_layers().size(), 3);
-  ASSERT_EQ(esi_net_shading().size(), 2 * kShadingLevels - kShadeLevel);
-  std::vector<Convolution> layers(esi_net_layers().begin(), esi_net_layers().end());
-  layers.insert(layers.end(), esi_net_shading().begin(), esi_net_shading().end());
-  std::int64_t most_value = kMostFeature;
+constexpr std::int64_t kMostFeature = 2 * kFeatureOne;  // 2 v / most
+
+std::int64_t most_of(const Convolution& layer, std::int64_t most_value, std::size_t to) {
+  std::int64_t most = std::abs(std::int64_t{layer.bias[to]}) + (1 << layer.shift);
+  for (std::size_t pair = 0; pair < layer.weights.size() / 32; ++pair)
+    for (std::size_t k = 0; k < 2; ++k)
+      most += most_value * std::abs(layer.weights[(pair * 16 + to) * 2 + k]);
+  return most;
+}
+
+void expect_within_32_bits(std::span<const Convolution> layers, std::int64_t most_value) {
   for (const Convolution& layer : layers) {
     // On the way up layers see what has been added to what went down.
     if (layer.least < 0) most_value = 2 * kMostValue;
     ASSERT_EQ(layer.weights.size(), static_cast<std::size_t>(9 * layer.in * kConvolutionOut));
     ASSERT_EQ(layer.bias.size(), static_cast<std::size_t>(kConvolutionOut));
-    for (std::size_t to = 0; to < kConvolutionOut; ++to) {
-      std::int64_t most = std::abs(std::int64_t{layer.bias[to]}) + (1 << layer.shift);
-      for (std::size_t pair = 0; pair < layer.weights.size() / 32; ++pair)
-        for (std::size_t k = 0; k < 2; ++k)
-          most += most_value * std::abs(layer.weights[(pair * 16 + to) * 2 + k]);
-      EXPECT_LE(most, std::numeric_limits<std::int32_t>::max()) << "output " << to;
-    }
+    for (std::size_t to = 0; to < kConvolutionOut; ++to)
+      ASSERT_LE(most_of(layer, most_value, to), std::numeric_limits<std::int32_t>::max())
+          << "output " << to;
     most_value = kMostValue;
   }
-  for (std::size_t i = 0; i < 4; ++i) {
-    std::int64_t most = std::abs(std::int64_t{esi_net_output_bias()[i]});
-    most += std::int64_t{kMostValue} << kEsiNetWeightBits;  // the shade
-    for (std::size_t k = 0; k < kEsiNetOutputIn; ++k)
-      most += (k < kConvolutionOut ? kMostValue : kMostFeature) *
-              std::abs(std::int64_t{esi_net_output()[i * kEsiNetOutputIn + k]});
-    EXPECT_LE(most, std::numeric_limits<std::int32_t>::max());
+}
+
+TEST(SmallConvolution, no_sum_of_the_edges_can_leave_32_bits_whatever_is_mixed) {
+  EdgeMixture mixture;
+  for (int second = 0; second <= EdgeMixture::kWhole; ++second) {
+    const EdgeWeights& edges = mixture.mix(second);
+    expect_within_32_bits(edges.layers, kMostFeature);
+    for (std::size_t i = 0; i < kPixelsABlock; ++i) {
+      std::int64_t most = std::abs(std::int64_t{edges.output_bias[i]});
+      most += std::int64_t{kMostValue} << kEsiNetWeightBits;  // the shade
+      for (std::size_t k = 0; k < kEsiNetOutputIn; ++k)
+        most += (k < kConvolutionOut ? kMostValue : kMostFeature) *
+                std::abs(std::int64_t{edges.output[i * kEsiNetOutputIn + k]});
+      ASSERT_LE(most, std::numeric_limits<std::int32_t>::max());
+    }
   }
+}
+
+TEST(SmallConvolution, no_sum_of_the_shading_can_leave_32_bits) {
+  ASSERT_EQ(esi_net_shading().size(), 2 * kShadingLevels - kShadeLevel);
+  expect_within_32_bits(esi_net_shading(), kMostValue);
 }
 
 }  // namespace

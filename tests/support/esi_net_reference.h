@@ -36,19 +36,19 @@ class EsiNetReference {
 
   core::Image<std::uint8_t> picture(core::Time t, double levels_per_sigma) const {
     const Planes seen = features(core::seconds(t));
-    const auto layers = esi::esi_net_layers();
-    const Planes second = convolved(convolved(seen, layers[0]), layers[1]);
-    const Planes third = convolved(second, layers[2]);
+    const Edges edges = mixed(second_share(seen));
+    const Planes second = convolved(convolved(seen, edges.layers[0]), edges.layers[1]);
+    const Planes third = convolved(second, edges.layers[2]);
     const core::Image<double> shade = shade_of(second, third);
     core::Image<std::uint8_t> gray(size_);
     for (int y = 0; y < size_.height_px; ++y)
       for (int x = 0; x < size_.width_px; ++x) {
         const auto i = static_cast<std::size_t>(y % 2 * 2 + x % 2);
-        double sum = esi::esi_net_output_bias()[i] + shade(x / 2, y / 2);
+        double sum = edges.output_bias[i] + shade(x / 2, y / 2);
         std::vector<double> values = third(x / 2, y / 2);
         values.insert(values.end(), seen(x / 2, y / 2).begin(), seen(x / 2, y / 2).end());
         for (std::size_t k = 0; k < esi::kEsiNetOutputIn; ++k)
-          sum += esi::esi_net_output()[i * esi::kEsiNetOutputIn + k] * values[k];
+          sum += edges.output[i * esi::kEsiNetOutputIn + k] * values[k];
         const double sigmas = sum / (esi::kFeatureOne << esi::kEsiNetWeightBits);
         gray(x, y) = static_cast<std::uint8_t>(
             std::lround(std::clamp(127.5 + levels_per_sigma * sigmas, 0.0, 255.0)));
@@ -58,6 +58,58 @@ class EsiNetReference {
 
  private:
   using Planes = core::Image<std::vector<double>>;  // values by block
+
+  /// esi::Convolution, or two of them mixed.
+  struct Layer {
+    explicit Layer(const esi::Convolution& one) : Layer(one, one, 0) {}
+    Layer(const esi::Convolution& one, const esi::Convolution& other, double share)
+        : in(one.in),
+          shift(one.shift),
+          least(one.least),
+          weights(between(one.weights, other.weights, share)),
+          bias(between(one.bias, other.bias, share)) {}
+
+    int in, shift, least;
+    std::vector<double> weights, bias;
+  };
+
+  struct Edges {
+    std::vector<Layer> layers;
+    std::vector<double> output, output_bias;
+  };
+
+  static std::vector<double> between(auto one, auto other, double share) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < one.size(); ++i)
+      values.push_back(std::floor((1 - share) * one[i] + share * other[i] + 0.5));
+    return values;
+  }
+
+  /// The two sets of weights, mixed.
+  static Edges mixed(double share) {
+    const auto& [one, other] = esi::esi_net_edges();
+    Edges edges;
+    for (std::size_t i = 0; i < one.layers.size(); ++i)
+      edges.layers.emplace_back(one.layers[i], other.layers[i], share);
+    edges.output = between(one.output, other.output, share);
+    edges.output_bias = between(one.output_bias, other.output_bias, share);
+    return edges;
+  }
+
+  /// By the features' means over all pixels of each fourth row of blocks.
+  static double second_share(const Planes& seen) {
+    constexpr std::size_t kFeatures = esi::kPixelFeatures;
+    double z = esi::esi_net_gate()[kFeatures];
+    for (std::size_t k = 0; k < kFeatures; ++k) {
+      double sum = 0, count = 0;
+      for (int y = 0; y < seen.height(); y += 4)
+        for (int x = 0; x < seen.width(); ++x)
+          for (std::size_t i = 0; i < 4; ++i, ++count) sum += seen(x, y)[i * kFeatures + k];
+      z += esi::esi_net_gate()[k] * sum / count / esi::kFeatureOne;
+    }
+    z /= 1 << esi::kEsiNetWeightBits;
+    return std::floor(256 * std::clamp(0.5 + z, 0.0, 1.0) + 0.5) / 256;
+  }
 
   std::size_t pixel(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.width_px) +
@@ -94,13 +146,13 @@ class EsiNetReference {
     auto layer = esi::esi_net_shading().begin();
     std::vector<Planes> passed{both};
     for (std::size_t i = 0; i < esi::kShadingLevels; ++i)
-      passed.push_back(convolved(halved(passed.back()), *layer++));
+      passed.push_back(convolved(halved(passed.back()), Layer(*layer++)));
     for (std::size_t i = esi::kShadingLevels; i > esi::kShadeLevel + 1; --i) {
-      const Planes up = convolved(passed.back(), *layer++);
+      const Planes up = convolved(passed.back(), Layer(*layer++));
       passed.pop_back();
       passed.back() = sum(passed.back(), up);
     }
-    const Planes last = convolved(passed.back(), *layer);
+    const Planes last = convolved(passed.back(), Layer(*layer));
     core::Image<double> shade(last.size());
     for (std::size_t i = 0; i < last.pixels().size(); ++i)
       shade.pixels()[i] = last.pixels()[i][0] * (1 << esi::kEsiNetWeightBits);
@@ -150,7 +202,7 @@ class EsiNetReference {
     return out;
   }
 
-  static Planes convolved(const Planes& in, const esi::Convolution& layer) {
+  static Planes convolved(const Planes& in, const Layer& layer) {
     Planes out(in.size(), std::vector<double>(esi::kConvolutionOut));
     for (int y = 0; y < in.height(); ++y)
       for (int x = 0; x < in.width(); ++x)
@@ -162,8 +214,7 @@ class EsiNetReference {
     return out;
   }
 
-  static double sum_at(const Planes& in, const esi::Convolution& layer, int x, int y,
-                       std::size_t to) {
+  static double sum_at(const Planes& in, const Layer& layer, int x, int y, std::size_t to) {
     double sum = layer.bias[to];
     const std::size_t channels = static_cast<std::size_t>(layer.in);
     for (int n = 0; n < 9; ++n) {

@@ -1,7 +1,8 @@
 // Training samples for esi_net: flat random scenes seen by a carried, random sensor.
 //
-//   make_samples FIRST_SEED LAST_SEED DIR
+//   make_samples FIRST_SEED LAST_SEED DIR [bright]
 //
+// With `bright` only of the seeds, one in eight, whose scene is so and in quick motion.
 // For each seed DIR/SEED.features and DIR/SEED.truth: patches one after the other, as
 // tools/training/samples.py reads them. Features are what EsiNet's network sees, int16,
 // [96][96][32]; the truth is luminance over the patch's mean, float, [192][192].
@@ -39,6 +40,10 @@ constexpr core::Time kPacket{10'000};
 struct Sensor {
   sim::SensorConfig config;
   double illuminance_lux;
+
+  bool is_bright() const {
+    return config.preset != sim::SensorPreset::custom && illuminance_lux > 150;
+  }
 };
 
 Sensor draw_sensor(core::Random& random) {
@@ -139,13 +144,16 @@ void write_patches(const esi::ChannelImage& features, const core::Image<float>& 
   }
 }
 
-void make_samples(std::uint64_t seed, const std::string& folder) {
+/// Returns whether the seed was wanted.
+bool make_samples(std::uint64_t seed, const std::string& folder, bool bright_only) {
   core::Random random = core::random_stream(seed, "training");
   const Sensor sensor = draw_sensor(random);
   constexpr std::array kMotions{sim::CarryMotion::hover, sim::CarryMotion::slow,
                                 sim::CarryMotion::fast,  sim::CarryMotion::fast,
                                 sim::CarryMotion::shake, sim::CarryMotion::shake};
   const sim::CarryMotion motion = kMotions[random() % kMotions.size()];
+  const bool is_quick = motion == sim::CarryMotion::fast || motion == sim::CarryMotion::shake;
+  if (bright_only && !(is_quick && sensor.is_bright())) return false;
   const FlatScene scene(draw_texture(kTexture_px, random), log_between(0.6, 1.6, random), motion,
                         seed);
   const core::Time end =
@@ -174,21 +182,22 @@ void make_samples(std::uint64_t seed, const std::string& folder) {
   }
   features.finish();
   truth.finish();
+  return true;
 }
 
 }  // namespace
 }  // namespace nightjar::training
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    std::cerr << "usage: make_samples FIRST_SEED LAST_SEED DIR\n";
+  const bool bright_only = argc == 5 && std::string(argv[4]) == "bright";
+  if (argc != 4 && !bright_only) {
+    std::cerr << "usage: make_samples FIRST_SEED LAST_SEED DIR [bright]\n";
     return 2;
   }
   try {
-    for (int seed = std::stoi(argv[1]); seed <= std::stoi(argv[2]); ++seed) {
-      nightjar::training::make_samples(static_cast<std::uint64_t>(seed), argv[3]);
-      std::cerr << "seed " << seed << " done\n";
-    }
+    for (int seed = std::stoi(argv[1]); seed <= std::stoi(argv[2]); ++seed)
+      if (nightjar::training::make_samples(static_cast<std::uint64_t>(seed), argv[3], bright_only))
+        std::cerr << "seed " << seed << " done\n";
   } catch (const std::exception& error) {
     std::cerr << "make_samples: " << error.what() << '\n';
     return 2;

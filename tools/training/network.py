@@ -21,7 +21,7 @@ def bounded(x):
     return F.relu(x).clamp(max=MOST_VALUE / ONE)
 
 
-class Edges(nn.Module):
+class EdgeWeights(nn.Module):
     """Three 3x3 layers, joined with the features themselves, which are sharper."""
 
     def __init__(self):
@@ -29,13 +29,44 @@ class Edges(nn.Module):
         self.layers = nn.ModuleList([convolution(4 * FEATURES), convolution(), convolution()])
         self.output = nn.Conv2d(HIDDEN + 4 * FEATURES, 4, 1)
 
-    def forward(self, stored):
-        """Features as they are stored (n, h, w, 32) -> what the second and the third layer see
-        (n, 16, h, w), and the picture (n, 1, 2 h, 2 w) in deviations."""
+
+class Edges(nn.Module):
+    """Two sets of weights, mixed for each picture by a share that its features' means give."""
+
+    def __init__(self):
+        super().__init__()
+        self.sets = nn.ModuleList([EdgeWeights(), EdgeWeights()])
+        self.gate = nn.Linear(FEATURES, 1)
+        self.only = None  # 0 or 1: as if there were that set alone
+
+    def second_share(self, means):
+        """Of the second set, 0 to 1, from what means_of() says (n, FEATURES)."""
+        if self.only is not None:
+            return torch.full((len(means), 1), float(self.only))
+        return (0.5 + self.gate(means)).clamp(0, 1)  # of odds: none below 0.6, all above 1.6
+
+    def forward(self, stored, means):
+        """Features as they are stored (n, h, w, 32), and those of the whole picture in the mean ->
+        what the second and the third layer see (n, 16, h, w), and the picture (n, 1, 2 h, 2 w) in
+        deviations."""
+        share = self.second_share(means).view(-1, 1, 1, 1)
+
+        def mixed(one, other, x):
+            return one(x) + share * (other(x) - one(x))
+
         features = stored.permute(0, 3, 1, 2) / ONE
-        second = bounded(self.layers[1](bounded(self.layers[0](features))))
-        third = bounded(self.layers[2](second))
-        return second, third, F.pixel_shuffle(self.output(torch.cat([third, features], 1)), 2)
+        seen = [features]
+        for one, other in zip(self.sets[0].layers, self.sets[1].layers):
+            seen.append(bounded(mixed(one, other, seen[-1])))
+        _, _, second, third = seen
+        joined = torch.cat([third, features], 1)
+        return second, third, F.pixel_shuffle(
+            mixed(self.sets[0].output, self.sets[1].output, joined), 2)
+
+
+def means_of(stored):
+    """Of whole pictures (n, h, w, 32), each fourth row of blocks -> (n, FEATURES)."""
+    return stored[:, ::4].float().mean((1, 2)).view(-1, 4, FEATURES).mean(1) / ONE
 
 
 class Shading(nn.Module):

@@ -9,19 +9,30 @@
 namespace nightjar::training {
 namespace {
 
-/// Smooth noise in several octaves over an even grey.
-cv::Mat draw_ground(int side_px, core::Random& random) {
-  cv::Mat ground(side_px, side_px, CV_32F, cv::Scalar(between(0.05, 0.9, random)));
-  const double amplitude_log = between(0.0, 0.5, random);
-  for (int cells = 8; cells <= 256; cells *= 2) {
-    cv::Mat coarse(cells, cells, CV_32F), fine;
-    for (float& value : cv::Mat_<float>(coarse))
-      value = static_cast<float>(core::normal(random) * amplitude_log * between(0.2, 1.0, random));
-    cv::resize(coarse, fine, ground.size(), 0, 0, cv::INTER_CUBIC);
-    cv::exp(fine, fine);
-    ground = ground.mul(fine);
+/// Noise of one deviation in octaves down to the finest, as of surfaces near and far: the finer
+/// the fainter, if at all, and drawn out along one side, as of wood, in one of three.
+cv::Mat draw_fractal(int side_px, int coarsest_cells, core::Random& random) {
+  cv::Mat sum(side_px, side_px, CV_32F, cv::Scalar(0));
+  const double fading = between(0, 0.7, random);
+  const double stretch = random() % 3 != 0 ? 1 : log_between(1, 16, random);
+  cv::RNG numbers(random());
+  for (int cells = coarsest_cells; cells <= side_px / 2; cells *= 2) {
+    cv::Mat coarse(cells, std::max(4, static_cast<int>(cells / stretch)), CV_32F), fine;
+    numbers.fill(coarse, cv::RNG::NORMAL, 0, std::pow(cells, -fading) * between(0.5, 1, random));
+    cv::resize(coarse, fine, sum.size(), 0, 0, cv::INTER_CUBIC);
+    sum += fine;
   }
-  return cv::min(ground, 0.98f);
+  cv::Scalar mean, deviation;
+  cv::meanStdDev(sum, mean, deviation);
+  return (sum - mean) / deviation[0];
+}
+
+/// Even grey times e to the power of noise.
+cv::Mat draw_ground(int side_px, core::Random& random) {
+  const double shade = between(0.05, 0.9, random), amplitude_log = log_between(0.03, 0.8, random);
+  cv::Mat ground;
+  cv::exp(amplitude_log * draw_fractal(side_px, 8, random), ground);
+  return cv::min(shade * ground, 0.98f);
 }
 
 void draw_shape(cv::Mat& scene, core::Random& random) {
@@ -61,15 +72,12 @@ void draw_shape(cv::Mat& scene, core::Random& random) {
   }
 }
 
-/// Fine noise on every surface, as of asphalt, wood or cloth.
+/// Noise on every surface, as of asphalt, wood or cloth.
 void add_grain(cv::Mat& scene, core::Random& random) {
-  const double amplitude_log = log_between(0.01, 0.2, random), size_px = log_between(1, 6, random);
-  cv::Mat grain(scene.size(), CV_32F);
-  cv::RNG numbers(random());
-  numbers.fill(grain, cv::RNG::NORMAL, 0, 1);
-  cv::GaussianBlur(grain, grain, {0, 0}, size_px);
-  // The blur leaves 1 / (2 sqrt(pi) size) of white noise's deviation.
-  cv::exp(grain * (amplitude_log * 2 * std::sqrt(std::numbers::pi) * size_px), grain);
+  const double amplitude_log = log_between(0.01, 0.3, random);
+  const int coarsest_cells = static_cast<int>(log_between(8, 512, random));
+  cv::Mat grain;
+  cv::exp(amplitude_log * draw_fractal(scene.rows, coarsest_cells, random), grain);
   cv::min(scene.mul(grain), 0.98, scene);
 }
 
@@ -122,7 +130,7 @@ core::Image<float> draw_texture(int side_px, core::Random& random) {
   core::Image<float> texture({side_px, side_px});
   cv::Mat pixels(side_px, side_px, CV_32F, texture.pixels().data());
   cv::resize(scene, pixels, pixels.size(), 0, 0, cv::INTER_AREA);
-  cv::GaussianBlur(pixels, pixels, {0, 0}, between(0.4, 1.2, random));
+  cv::GaussianBlur(pixels, pixels, {0, 0}, between(0.2, 1.2, random));
   cv::max(pixels, 0.01, pixels);
   return texture;
 }

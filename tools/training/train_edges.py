@@ -1,11 +1,16 @@
 #!/usr/bin/env python3
-"""Trains esi_net's edges on the samples of make_samples and writes esi/esi_net_weights.cc.
+r"""Trains esi_net's edges on the samples of make_samples and writes esi/esi_net_weights.cc.
 
-    make_samples 1 450 DIR                            # some 25 minutes on one core
-    python3 train_edges.py DIR esi/esi_net_weights.cc # some 45 minutes
+    make_samples 1 450 DIR                             # some 30 minutes on one core
+    make_samples 1001 3000 BRIGHT_DIR bright           # some 20 minutes
+    python3 train_edges.py DIR first.cc                # some 45 minutes
+    python3 train_edges.py BRIGHT_DIR esi/esi_net_weights.cc --part second --start first.cc \
+        --steps 17000                                  # some 20 minutes
 
-The shading written with them is nothing: train_shading.py comes next. Needs Debian's
-python3-torch and python3-numpy. The same samples, seed and build of torch give the same weights.
+There are two sets of weights: the first for any scene, the second, which begins as the first, for
+bright scenes in quick motion. train_gate.py comes next, then train_shading.py: until then what
+mixes the two is of chance or the start's, and there is no shade. Needs Debian's python3-torch and
+python3-numpy. The same samples, seed and build of torch give the same weights.
 """
 
 import numpy as np
@@ -15,7 +20,7 @@ from torch.nn import functional as F
 
 import samples
 import weights_file
-from network import Edges, Shading
+from network import Edges, Shading, means_of
 from training import check_enough, parse_arguments, prepare, shown, train
 
 CROP = 96  # of a patch: light and shade further off are the shading's
@@ -54,9 +59,10 @@ def loss(picture, truth):
 
 
 def cut(features, truth, left, top):
-    """CROP pixels each way, from a block's corner on."""
+    """CROP pixels each way, from a block's corner on, and the means of all of the features."""
     blocks = features[top:top + CROP // 2, left:left + CROP // 2]
     return (torch.from_numpy(blocks.astype(np.float32)),
+            means_of(torch.from_numpy(np.array(features[None])))[0],
             torch.from_numpy(truth[:, 2 * top:2 * top + CROP, 2 * left:2 * left + CROP].copy()))
 
 
@@ -64,11 +70,14 @@ def draw_batch(patches, count, random):
     chosen = [patches[i] for i in random.integers(0, len(patches), count)]
     cuts = [cut(features[i], truth[i], *random.integers(0, (samples.PATCH - CROP) // 2 + 1, 2))
             for features, truth, i in chosen]
-    return samples.turned_any_way(*map(torch.stack, zip(*cuts)), random)
+    x, means, y = map(torch.stack, zip(*cuts))
+    x, y = samples.turned_any_way(x, y, random)
+    return x, means, y
 
 
 def main():
-    arguments = parse_arguments(__doc__, "write", steps=40000, batch=8, rate=2e-3)
+    arguments = parse_arguments(__doc__, "write", parts=["first", "second"], steps=40000,
+                                batch=8, rate=2e-3)
     random = prepare(arguments.seed)
     known, judged_by = [], []
     for seed, features, truth in samples.scenes(arguments.samples):
@@ -76,19 +85,26 @@ def main():
         to += [(features, truth, i) for i in range(len(truth))]
     check_enough(arguments.samples, known, judged_by)
     edges, shading = Edges(), Shading()
+    if arguments.start:
+        weights_file.read(edges, shading, arguments.start)
     for parameter in shading.shade.parameters():
         nn.init.zeros_(parameter)
+    edges.only = ["first", "second"].index(arguments.part)
+    edges.requires_grad_(False)
+    edges.sets[edges.only].requires_grad_(True)
     judged = [draw_batch(judged_by, arguments.batch, random) for _ in range(60)]
 
     def judge(network):
         with torch.no_grad():
-            return np.mean([loss(network(x)[2], y).item() for x, y in judged])
+            return np.mean([loss(network(x, means)[2], y).item() for x, means, y in judged])
 
     def draw_loss():
-        x, y = draw_batch(known, arguments.batch, random)
-        return loss(edges(x)[2], y)
+        x, means, y = draw_batch(known, arguments.batch, random)
+        return loss(edges(x, means)[2], y)
 
     trained = train(edges, draw_loss, judge, arguments)
+    if arguments.part == "first":
+        trained.sets[1].load_state_dict(trained.sets[0].state_dict())
     weights_file.write(trained, shading, arguments.weights)
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Trains esi_net's shading on the samples of make_samples, its edges kept as they are.
 
-    make_samples 1 420 DIR                              # some 30 minutes on one core
+    make_samples 1 450 DIR                              # some 30 minutes on one core
     python3 train_shading.py DIR esi/esi_net_weights.cc # some 20 minutes
 
 Reads the edges from the file and writes it anew, with the mean of what the shading was in the
@@ -17,7 +17,7 @@ from torch.nn import functional as F
 
 import samples
 import weights_file
-from network import Edges, Shading, halved
+from network import Edges, Shading, halved, means_of
 from training import check_enough, parse_arguments, prepare, shown, train
 
 VIEWS = 3  # of each patch, turned this way and that
@@ -29,7 +29,7 @@ SHARE = 0.6
 def seen_of(edges, features, truth):
     """Of some patches: what the shading sees (n, 32, 48, 48), and by how much the edges' picture
     is too dark (n, 1, 48, 48), the mean being free."""
-    second, third, picture = edges(features)
+    second, third, picture = edges(features, means_of(features))
     lacks = shown(truth) - (picture - picture.mean((2, 3), keepdim=True))
     # What is finer than 4 px no shade can mend: left out, the loss is less by a constant.
     return halved(torch.cat([second, third], 1)), F.avg_pool2d(lacks, 4)
@@ -63,12 +63,21 @@ def loss(shade, lacks):
     return (shade - mean - lacks).square().mean() + 0.001 * mean.square().mean()
 
 
+def scale(layer, by):
+    with torch.no_grad():
+        for parameter in layer.parameters():
+            parameter.mul_(by)
+
+
 def main():
-    arguments = parse_arguments(__doc__, "read the edges from, and to write", steps=16000,
-                                batch=24, rate=2e-3)
+    arguments = parse_arguments(__doc__, "read the edges from, and to write", parts=[],
+                                steps=16000, batch=24, rate=2e-3)
     random = prepare(arguments.seed)
     edges, shading = Edges(), Shading()
-    weights_file.read_edges(edges, arguments.weights)
+    if arguments.start:
+        weights_file.read(Edges(), shading, arguments.start)
+        scale(shading.shade, 1 / SHARE)
+    weights_file.read(edges, Shading(), arguments.weights)
     seen, lacking, seeds = see(edges, arguments.samples, random)
     kept_back = samples.kept_back(seeds)
     known, judged_by = np.flatnonzero(~kept_back), np.flatnonzero(kept_back)
@@ -87,9 +96,7 @@ def main():
           f"without a shade {lacking[judged_by].float().square().mean():.4f}", flush=True)
     trained = train(shading, lambda: loss_of(shading, random.choice(known, arguments.batch)), judge,
                     arguments)
-    with torch.no_grad():
-        for parameter in trained.shade.parameters():
-            parameter.mul_(SHARE)
+    scale(trained.shade, SHARE)
     weights_file.write(edges, trained, arguments.weights)
 
 

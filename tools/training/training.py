@@ -8,6 +8,7 @@ import torch
 from torch import nn
 from torch.optim.swa_utils import AveragedModel
 
+MOST_WEIGHT = 7.99  # what 16 bits hold at weights_file.WEIGHT_BITS below 1
 WHITE = 3  # deviations that a picture's white comes near to
 
 
@@ -37,6 +38,9 @@ def train(network, draw_loss, judge, arguments):
         value.backward()
         nn.utils.clip_grad_norm_(network.parameters(), 1.0)
         optimiser.step()
+        with torch.no_grad():
+            for parameter in network.parameters():
+                parameter.clamp_(-MOST_WEIGHT, MOST_WEIGHT)
         if step > arguments.steps // 2:
             average.update_parameters(network)
         total += value.item()
@@ -49,11 +53,15 @@ def train(network, draw_loss, judge, arguments):
     return average.module
 
 
-def parse_arguments(description, weights, steps, batch, rate):
-    """What both programs take; `weights` says what is done to the C++ file."""
+def parse_arguments(description, weights, parts, steps, batch, rate):
+    """What both programs take; `weights` says what is done to the C++ file, of `parts` the first is
+    what is trained unless told otherwise."""
     parser = argparse.ArgumentParser(description=description.split("\n")[0])
     parser.add_argument("samples", help="the folder that make_samples filled")
     parser.add_argument("weights", help=f"the C++ file to {weights}")
+    parser.add_argument("--start", metavar="FILE", help="a C++ file to go on from")
+    if parts:
+        parser.add_argument("--part", choices=parts, default=parts[0], help="what to train")
     parser.add_argument("--steps", type=int, default=steps)
     parser.add_argument("--batch", type=int, default=batch)
     parser.add_argument("--rate", type=float, default=rate)

@@ -12,21 +12,31 @@ WEIGHT_BITS = 12  # kEsiNetWeightBits
 UNIT = 2**WEIGHT_BITS
 
 
-def read_edges(edges, path):
+def read(edges, shading, path):
     """Takes over what write() has written."""
     text = pathlib.Path(path).read_text()
     found = {name: np.array(values.replace(",", " ").split(), np.float32)
              for name, values in re.findall(r"(k\w+)\[\] = \{(.*?)\};", text, re.S)}
+    units = [2**int(bits) for bits in re.findall(r"kBias\d+, (\d+)", text)]
 
     def take(parameter, values):
         parameter.data.copy_(torch.from_numpy(values.reshape(parameter.shape)))
 
-    for i, layer in enumerate(edges.layers):
+    layers = in_order(edges, shading)
+    for i, (layer, unit) in enumerate(zip(layers, units, strict=True)):
         w = found[f"kWeights{i}"].reshape(3, 3, -1, HIDDEN, 2).transpose(3, 2, 4, 0, 1)
-        take(layer.weight, w.reshape(HIDDEN, -1, 3, 3) / UNIT)
-        take(layer.bias, found[f"kBias{i}"] / (UNIT * ONE))
-    take(edges.output.weight, found["kOutput"] / UNIT)
-    take(edges.output.bias, found["kOutputBias"] / (UNIT * ONE))
+        take(layer.weight, w.reshape(HIDDEN, -1, 3, 3)[:layer.out_channels] / unit)
+        take(layer.bias, found[f"kBias{i}"][:layer.out_channels] / (unit * ONE))
+    for i, weights in enumerate(edges.sets):
+        take(weights.output.weight, found[f"kOutput{i}"] / UNIT)
+        take(weights.output.bias, found[f"kOutputBias{i}"] / (UNIT * ONE))
+    take(edges.gate.weight, found["kGate"][:-1] / UNIT)
+    take(edges.gate.bias, found["kGate"][-1:] / UNIT)
+
+
+def in_order(edges, shading):
+    return [*edges.sets[0].layers, *edges.sets[1].layers,
+            *shading.down, *shading.up, shading.shade]
 
 
 def whole(values, most):
@@ -68,20 +78,27 @@ def convolution(i, layer, bits):
 
 
 def write(edges, shading, path):
+    layers = in_order(edges, shading)
+    count = len(edges.sets[0].layers)
     signed = [*shading.up, shading.shade]
-    layers = [*edges.layers, *shading.down, *signed]
+    # Features are 2 at most; what goes up has been added to what went down.
+    firsts = [weights.layers[0] for weights in edges.sets]
+    bits = [bits_below(layer, 2 * ONE if layer in firsts else
+                       2 * MOST_VALUE if layer in signed else MOST_VALUE) for layer in layers]
+    for i in range(count):  # what is mixed has the same
+        bits[i] = bits[count + i] = min(bits[i], bits[count + i])
     arrays, entries = "", []
     for i, layer in enumerate(layers):
-        # Features are 2 at most; what goes up has been added to what went down.
-        most_in = 2 * ONE if i == 0 else 2 * MOST_VALUE if layer in signed else MOST_VALUE
-        bits = bits_below(layer, most_in)
-        arrays += convolution(i, layer, bits)
+        arrays += convolution(i, layer, bits[i])
         least = ", -kMostValue" if layer in signed else ""
-        entries.append(f"      {{{layer.in_channels}, kWeights{i}, kBias{i}, {bits}{least}}},\n")
-    arrays += listed("kOutput", "int16_t", whole(numbers(edges.output.weight, UNIT), 32767))
-    arrays += listed("kOutputBias", "int32_t",
-                     whole(numbers(edges.output.bias, UNIT * ONE), 2**31 - 1))
-    count = len(edges.layers)
+        entries.append(f"{{{layer.in_channels}, kWeights{i}, kBias{i}, {bits[i]}{least}}},\n")
+    for i, weights in enumerate(edges.sets):
+        arrays += listed(f"kOutput{i}", "int16_t",
+                         whole(numbers(weights.output.weight, UNIT), 32767))
+        arrays += listed(f"kOutputBias{i}", "int32_t",
+                         whole(numbers(weights.output.bias, UNIT * ONE), 2**31 - 1))
+    gate = torch.cat([edges.gate.weight.flatten(), edges.gate.bias])
+    arrays += listed("kGate", "int32_t", whole(numbers(gate, UNIT), 2**31 - 1))
     pathlib.Path(path).write_text(f"""// Written by tools/training; do not edit.
 #include "esi/esi_net_weights.h"
 
@@ -93,21 +110,28 @@ namespace {{
 
 }}  // namespace
 
-std::span<const Convolution> esi_net_layers() {{
-  static const Convolution layers[] = {{
-{"".join(entries[:count])}  }};
-  return layers;
+const std::array<EdgeWeights, 2>& esi_net_edges() {{
+  static const std::array<EdgeWeights, 2> sets = {{
+      EdgeWeights{{{{{{{indented(entries[:count])}                  }}}},
+                  kOutput0,
+                  kOutputBias0}},
+      EdgeWeights{{{{{{{indented(entries[count:2 * count])}                  }}}},
+                  kOutput1,
+                  kOutputBias1}}}};
+  return sets;
 }}
+
+std::span<const std::int32_t, kPixelFeatures + 1> esi_net_gate() {{ return kGate; }}
 
 std::span<const Convolution> esi_net_shading() {{
   static const Convolution layers[] = {{
-{"".join(entries[count:])}  }};
+{"".join("      " + entry for entry in entries[2 * count:])}  }};
   return layers;
 }}
 
-std::span<const std::int16_t, 4 * kEsiNetOutputIn> esi_net_output() {{ return kOutput; }}
-
-std::span<const std::int32_t, 4> esi_net_output_bias() {{ return kOutputBias; }}
-
 }}  // namespace nightjar::esi
 """)
+
+
+def indented(entries):
+    return "\n" + "".join("                      " + entry for entry in entries)
