@@ -31,35 +31,62 @@ int within_reach(int at, int size) {
          1;
 }
 
+/// The sum of term(i) for i below `count`, each below 2^21: exact, in whatever order.
+template <class Term>
+std::uint64_t sum_of(std::size_t count, const Term& term) {
+  constexpr std::size_t kPiece = 2048;  // whose sum keeps to 32 bits
+  std::uint64_t sum = 0;
+  for (std::size_t from = 0; from < count; from += kPiece) {
+    const std::size_t end = std::min(from + kPiece, count);
+    std::uint32_t of_piece = 0;
+    std::uint32_t* const out = &of_piece;
+    with_best_instructions([=]() __attribute__((always_inline)) {
+      std::uint32_t terms = 0;
+      for (std::size_t i = from; i < end; ++i) terms += static_cast<std::uint32_t>(term(i));
+      *out = terms;
+    });
+    sum += of_piece;
+  }
+  return sum;
+}
+
+std::uint64_t squared_differences(const std::uint16_t* a, const std::uint16_t* b,
+                                  std::size_t count) {
+  const auto square = [=](std::size_t i) __attribute__((always_inline)) {
+    const int difference = a[i] - b[i];
+    return difference * difference;
+  };
+  return sum_of(count, square);
+}
+
 struct Moments {
   double mean;
   double variance;
 };
 
-// Sums of whole numbers, here and below: exact, in whatever order.
 Moments moments(const core::Image<std::uint16_t>& image) {
-  std::uint64_t sum = 0, squares = 0;
-  for (const std::uint16_t value : image.pixels()) {
-    sum += value;
-    squares += std::uint64_t{value} * value;
-  }
-  const auto count = static_cast<double>(image.pixels().size());
-  const double mean = static_cast<double>(sum) / count;
-  return {mean, std::max(static_cast<double>(squares) / count - mean * mean, 0.0)};
+  const std::uint16_t* values = image.pixels().data();
+  const std::size_t pixels = image.pixels().size();
+  const auto value = [=](std::size_t i) __attribute__((always_inline)) { return values[i]; };
+  const auto square = [=](std::size_t i) __attribute__((always_inline)) {
+    return values[i] * values[i];
+  };
+  const auto count = static_cast<double>(pixels);
+  const double mean = static_cast<double>(sum_of(pixels, value)) / count;
+  const double mean_square = static_cast<double>(sum_of(pixels, square)) / count;
+  return {mean, std::max(mean_square - mean * mean, 0.0)};
 }
 
 /// Half the mean square of the difference between pixels side by side, or one above the other.
 double noise_variance(const core::Image<std::uint16_t>& image) {
-  const int width = image.width(), height = image.height();
-  std::uint64_t squares = 0;
-  const auto add = [&](int a, int b) { squares += static_cast<std::uint64_t>((a - b) * (a - b)); };
-  for (int y = 0; y < height; ++y) {
-    for (int x = 1; x < width; ++x) add(image(x, y), image(x - 1, y));
-    if (y == 0) continue;
-    for (int x = 0; x < width; ++x) add(image(x, y), image(x, y - 1));
-  }
-  const int pairs = (width - 1) * height + width * (height - 1);
-  return static_cast<double>(squares) / (2.0 * std::max(pairs, 1));
+  const auto width = static_cast<std::size_t>(image.width());
+  const std::size_t pixels = image.pixels().size();
+  const std::uint16_t* value = image.pixels().data();
+  std::uint64_t squares = squared_differences(value + width, value, pixels - width);
+  for (std::size_t row = 0; row < pixels; row += width)
+    squares += squared_differences(value + row + 1, value + row, width - 1);
+  const std::size_t pairs = 2 * pixels - width - pixels / width;
+  return static_cast<double>(squares) / static_cast<double>(2 * std::max<std::size_t>(pairs, 1));
 }
 
 }  // namespace
