@@ -277,8 +277,9 @@ double noise_figure(double rate_hz) {
   Esi esi(config, size);
   const core::Image<double> rates(size, 5.0);
   esi.process(test::poisson_events(rates, 5.0, 0.5, 2s, /*seed=*/6));
+  const core::Image<std::uint8_t> picture = picture_of(esi, 2s);
   double sum = 0;
-  for (const std::uint8_t level : picture_of(esi, 2s).pixels())
+  for (const std::uint8_t level : picture.pixels())
     sum += std::log(1 + std::abs(level / 255.0 * 20.0 - 10.0) / config.contrast_log);
   return sum / size.pixels();
 }
