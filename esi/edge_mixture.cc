@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "esi/best_instructions.h"
 
@@ -30,7 +31,6 @@ void add_row(const ChannelImage& features, int row, Sums& sums) {
   const std::int16_t* feature = features.at(0, row);
   const int width = features.width();
   with_best_instructions([=]() __attribute__((always_inline)) {
-#pragma GCC ivdep
     for (int x = 0; x < width; ++x)
       for (std::size_t k = 0; k < kInBlock; ++k)
         sum[k] += feature[static_cast<std::size_t>(x) * kInBlock + k];
