@@ -19,9 +19,9 @@ namespace nightjar::esi {
 /// No one decay suits hovering and fast flight, darkness and light: a long memory keeps the
 /// picture and the noise, a short one loses both. Here each pixel has several, and the
 /// network, with weights that EdgeMixture chooses, sees from all of them, the neighbours' too, what
-/// is signal: edges. How bright the surfaces between them are, Shading adds. All in whole
-/// numbers: every processor gives the same picture. Where little happens, and there are frames of the active pixels, FrameBlend shows
-/// those.
+/// is signal: edges. How bright the surfaces between them are, Shading adds. All in whole numbers
+/// but the choice, in doubles of one order: every processor gives the same picture. Where little
+/// happens, and there are frames of the active pixels, FrameBlend shows those.
 class EsiNet final : public Reconstructor {
  public:
   /// Throws std::invalid_argument for a config out of range.
